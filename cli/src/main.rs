@@ -1,0 +1,2 @@
+//! Placeholder that the first change to this crate replaces.
+fn main() {}

@@ -1,0 +1,17 @@
+//! The wireframe drawing: a graph of vertices and edges with curve geometry.
+//!
+//! A [`Drawing`] is valid by construction: every edge names existing vertices, its polyline begins
+//! and ends there, all numbers are finite and the size is within [`Limits`]. Input that lists
+//! curves without vertices goes through clean-up first and becomes a [`CleanDrawing`].
+
+mod coedge;
+mod curve;
+mod error;
+mod graph;
+mod model;
+
+pub use coedge::CoEdge;
+pub use curve::{Curve2, EllipseArc};
+pub use error::DrawingError;
+pub use graph::Graph;
+pub use model::{Drawing, Edge, Limits, Projection, SurfaceKind, Truth, TruthFace};

@@ -1,0 +1,194 @@
+//! The drawing itself and its truth, as in the interchange format.
+
+use glam::{DVec2, DVec3};
+use serde::{Deserialize, Serialize};
+
+use super::{CoEdge, Curve2, DrawingError};
+
+/// Kind of projection that made a drawing.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", tag = "kind")]
+pub enum Projection {
+    /// Parallel projection along z: (x, y, z) is drawn at (x, y).
+    #[default]
+    Orthographic,
+    /// Central projection, camera at the origin looking along -z: (x, y, z) is drawn at
+    /// (f x / -z, f y / -z).
+    Perspective {
+        /// Focal length f, in drawing units, if known.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        focal: Option<f64>,
+    },
+}
+
+/// Kind of surface a face lies on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SurfaceKind {
+    /// Plane.
+    Plane,
+    /// Circular cylinder.
+    Cylinder,
+    /// Circular cone.
+    Cone,
+    /// Sphere.
+    Sphere,
+    /// Torus.
+    Torus,
+    /// Any other surface.
+    Other,
+}
+
+impl SurfaceKind {
+    /// The paper's three classes: 0 plane, 1 cylinder, 2 everything else.
+    pub const fn paper_class(self) -> usize {
+        match self {
+            Self::Plane => 0,
+            Self::Cylinder => 1,
+            _ => 2,
+        }
+    }
+}
+
+/// An edge of a drawing.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Edge {
+    /// First and second vertex, indices from 0; equal for a closed edge.
+    pub v: [usize; 2],
+    /// Polyline from `v[0]` to `v[1]`, both ends included; at least two points.
+    pub points: Vec<DVec2>,
+    /// What the polyline was recognised as.
+    pub curve: Curve2,
+}
+
+impl Edge {
+    /// Whether the edge is a straight segment.
+    pub fn is_straight(&self) -> bool {
+        matches!(self.curve, Curve2::Line)
+    }
+
+    /// Length of the polyline, in drawing units.
+    pub fn length(&self) -> f64 {
+        self.points.windows(2).map(|w| w[0].distance(w[1])).sum()
+    }
+}
+
+/// A true face of a drawing made from a known solid.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct TruthFace {
+    /// Surface kind.
+    #[serde(rename = "type")]
+    pub kind: SurfaceKind,
+    /// Loops of co-edges; seen from outside the face is on the left.
+    pub loops: Vec<Vec<CoEdge>>,
+}
+
+/// What is known of the solid that a drawing was made from.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Truth {
+    /// Faces; each co-edge is in one loop of one face.
+    pub faces: Vec<TruthFace>,
+    /// Vertices in the camera frame, one for each drawn vertex.
+    #[serde(default)]
+    pub vertices3d: Vec<DVec3>,
+    /// Polylines in the camera frame, one for each edge, as many points as drawn.
+    #[serde(default)]
+    pub edges3d: Vec<Vec<DVec3>>,
+    /// Model axes in the camera frame.
+    #[serde(default)]
+    pub directions: Vec<DVec3>,
+}
+
+/// A wireframe drawing: camera frame, x to the right, y up, z towards the viewer.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Drawing {
+    /// Name, unique within a data set; may be empty.
+    pub id: String,
+    /// Where the solid came from; may be empty.
+    pub source: String,
+    /// Kind of projection.
+    pub projection: Projection,
+    /// Vertices, in drawing units.
+    pub vertices: Vec<DVec2>,
+    /// Edges.
+    pub edges: Vec<Edge>,
+    /// What is known of the solid, if anything.
+    pub truth: Option<Truth>,
+}
+
+/// Largest drawing that is worked on; larger ones are refused by name of the limit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Limits {
+    /// Edges of a drawing.
+    pub edges: usize,
+    /// Points of one edge's polyline.
+    pub points: usize,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self {
+            edges: 5_000,
+            points: 10_000,
+        }
+    }
+}
+
+impl Drawing {
+    /// Half diagonal of the bounding box of all points, in drawing units; the scale for tolerances.
+    pub fn size(&self) -> f64 {
+        let points = || self.edges.iter().flat_map(|e| &e.points);
+        let min = points().fold(DVec2::INFINITY, |m, p| m.min(*p));
+        let max = points().fold(DVec2::NEG_INFINITY, |m, p| m.max(*p));
+        if min.is_finite() && max.is_finite() {
+            (max - min).length() / 2.0
+        } else {
+            0.0
+        }
+    }
+
+    /// Reads one drawing in the interchange format.
+    ///
+    /// # Errors
+    /// [`DrawingError`] naming the edge or vertex that is wrong.
+    pub fn from_json(text: &str) -> Result<Self, DrawingError> {
+        let raw: RawDrawing =
+            serde_json::from_str(text).map_err(|e| DrawingError::Format(e.to_string()))?;
+        let edges = raw
+            .edges
+            .into_iter()
+            .map(|e| Edge {
+                v: e.v,
+                curve: Curve2::recognise(&e.points),
+                points: e.points,
+            })
+            .collect();
+        Ok(Self {
+            id: raw.id,
+            source: raw.source,
+            projection: raw.projection,
+            vertices: raw.vertices,
+            edges,
+            truth: raw.truth,
+        })
+    }
+}
+
+#[derive(Deserialize)]
+struct RawEdge {
+    v: [usize; 2],
+    points: Vec<DVec2>,
+}
+
+#[derive(Deserialize)]
+struct RawDrawing {
+    #[serde(default)]
+    id: String,
+    #[serde(default)]
+    source: String,
+    #[serde(default)]
+    projection: Projection,
+    vertices: Vec<DVec2>,
+    edges: Vec<RawEdge>,
+    truth: Option<Truth>,
+}

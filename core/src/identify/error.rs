@@ -1,0 +1,54 @@
+//! Errors of identification. Edges are numbered from 1, vertices from 0.
+
+/// Why an engine refused a drawing.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum IdentifyError {
+    /// The engine handles straight edges only.
+    #[error("the engine {engine} handles straight edges only, and edge {edge} is curved")]
+    CurvedEdge {
+        /// Engine name.
+        engine: &'static str,
+        /// Edge number, from 1.
+        edge: usize,
+    },
+    /// A vertex has fewer than two edges.
+    #[error("edge {edge} ends freely at vertex {vertex}; connect or delete it")]
+    DanglingEdge {
+        /// Edge number, from 1.
+        edge: usize,
+        /// Vertex index, from 0.
+        vertex: usize,
+    },
+    /// More edges meet at a vertex than the engine handles.
+    #[error("{degree} edges meet at vertex {vertex}; the engine {engine} handles at most {limit}")]
+    DegreeTooHigh {
+        /// Engine name.
+        engine: &'static str,
+        /// Vertex index, from 0.
+        vertex: usize,
+        /// Edges at the vertex.
+        degree: usize,
+        /// Most that the engine handles.
+        limit: usize,
+    },
+    /// The engine got stuck: no consistent set of faces remains.
+    #[error("the engine {engine} found no consistent faces through edge {edge}")]
+    NoFaces {
+        /// Engine name.
+        engine: &'static str,
+        /// Edge number, from 1.
+        edge: usize,
+    },
+    /// A faces file does not fit the drawing.
+    #[error("the faces do not fit the drawing: face {face}: {what}")]
+    Mismatch {
+        /// Face number, from 1.
+        face: usize,
+        /// What is wrong, naming the edge.
+        what: String,
+    },
+    /// No engine of that name.
+    #[error("there is no engine named {0:?}")]
+    UnknownEngine(String),
+}

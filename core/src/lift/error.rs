@@ -1,0 +1,31 @@
+//! Errors of lifting. Faces and edges are numbered from 1, vertices from 0.
+
+/// Why depth could not be recovered.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum LiftError {
+    /// Too few edges follow common directions, and no circle helps.
+    #[error("no dominant directions can be told from the drawing: {0}")]
+    NoDirections(String),
+    /// The view is too close to a model axis for depth to be told.
+    #[error(
+        "the view is only {degrees:.1} degrees away from a model axis; turn the part so that three \
+         sides are seen"
+    )]
+    DegenerateView {
+        /// Angle between the view direction and the nearest axis or axis plane.
+        degrees: f64,
+    },
+    /// The rows leave some depths free.
+    #[error("the drawing leaves the depth of vertices {vertices:?} open; add edges that fix them")]
+    UnderConstrained {
+        /// Vertex indices, from 0.
+        vertices: Vec<usize>,
+    },
+    /// The solver gave up.
+    #[error("the depth problem could not be solved: {0}")]
+    Solver(String),
+    /// Drawings of this projection are not lifted.
+    #[error("{0} drawings cannot be lifted")]
+    Projection(&'static str),
+}

@@ -1,0 +1,7 @@
+//! Lifting: from a drawing with faces to depth.
+
+mod error;
+mod model;
+
+pub use error::LiftError;
+pub use model::{Conflict, Lift, LiftMethod, LiftOptions, Surface};

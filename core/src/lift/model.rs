@@ -1,0 +1,76 @@
+//! What lifting takes and gives.
+
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+/// Options of lifting.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct LiftOptions {
+    /// Take the Necker reversal of the default choice (the model seen from above).
+    #[serde(default)]
+    pub flip: bool,
+}
+
+/// Surface of a lifted face, in drawing units, camera frame.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", tag = "kind")]
+pub enum Surface {
+    /// Plane through `origin`; `normal` has unit length and no meaning of its sign.
+    Plane {
+        /// A point of the plane.
+        origin: DVec3,
+        /// Unit normal.
+        normal: DVec3,
+    },
+    /// Circular cylinder.
+    Cylinder {
+        /// A point of the axis.
+        origin: DVec3,
+        /// Unit direction of the axis.
+        axis: DVec3,
+        /// Radius.
+        radius: f64,
+    },
+    /// A surface that lifting does not know; its vertices still have depth.
+    Unknown,
+}
+
+/// How the depths were found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum LiftMethod {
+    /// All rows agree: linear least squares.
+    Exact,
+    /// Rows conflicted: L1, then the rows that agree once more as least squares.
+    L1,
+}
+
+/// A face that the lifted depths contradict.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Conflict {
+    /// Face index, from 0.
+    pub face: usize,
+    /// Vertices (from 0) that lie off the face's surface.
+    pub vertices: Vec<usize>,
+    /// Other faces (from 0) at those vertices.
+    pub others: Vec<usize>,
+    /// Largest distance, in drawing units.
+    pub residual: f64,
+}
+
+/// A lifted drawing.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Lift {
+    /// Depth z of every vertex, drawing units, towards the viewer; mean 0.
+    pub depths: Vec<f64>,
+    /// Surface of every face, in the order of the faces given.
+    pub surfaces: Vec<Surface>,
+    /// Dominant directions found, unit vectors in the camera frame; three if a full frame.
+    pub directions: Vec<DVec3>,
+    /// How the depths were found.
+    pub method: LiftMethod,
+    /// Largest residual of the rows that were kept, drawing units.
+    pub residual: f64,
+    /// Faces that the depths contradict; empty when consistent.
+    pub conflicts: Vec<Conflict>,
+}
