@@ -40,6 +40,11 @@ pub enum IdentifyError {
         /// Edge number, from 1.
         edge: usize,
     },
+    /// The text is no faces file.
+    #[error(
+        "not a faces file: {0}; expected what `faceformer identify` writes, or {{\"faces\": [...]}}"
+    )]
+    Format(String),
     /// A faces file does not fit the drawing.
     #[error("the faces do not fit the drawing: face {face}: {what}")]
     Mismatch {
@@ -49,6 +54,6 @@ pub enum IdentifyError {
         what: String,
     },
     /// No engine of that name.
-    #[error("there is no engine named {0:?}")]
+    #[error("there is no engine named {0:?}; there are {names}", names = super::EngineKind::names())]
     UnknownEngine(String),
 }

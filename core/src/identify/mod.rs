@@ -1,7 +1,18 @@
 //! Face identification: from a drawing to faces as loops of co-edges.
+//!
+//! [`engine`] gives a method by name; every one returns an [`Identification`]. [`from_truth`] and
+//! [`read_faces`] give the same type from a drawing's truth and from a file. [`metrics`] compares
+//! a result with the truth.
 
 mod error;
+mod faces;
+pub mod metrics;
 mod model;
+mod registry;
+#[cfg(test)]
+pub(crate) mod testing;
 
 pub use error::IdentifyError;
-pub use model::{Candidate, Engine, EngineKind, Evidence, Face, Identification};
+pub use faces::{FILE, TRUTH, from_truth, read_faces};
+pub use model::{Candidate, Engine, Evidence, Face, Identification};
+pub use registry::{EngineKind, engine};

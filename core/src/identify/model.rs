@@ -76,19 +76,6 @@ pub struct Identification {
     pub notices: Vec<String>,
 }
 
-/// Names of the engines (design, section 3).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-#[non_exhaustive]
-pub enum EngineKind {
-    /// Rotation system decoded from scores per triple of edges; the default.
-    Rotation,
-    /// String merging of Varley and Company (2010); straight edges only.
-    Varley,
-    /// Least-cost loop through each co-edge.
-    Shortest,
-}
-
 /// A method that finds the faces of a drawing.
 pub trait Engine: Send + Sync {
     /// Name on the command line and in results.

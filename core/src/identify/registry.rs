@@ -1,0 +1,97 @@
+//! The engines by name.
+
+use std::fmt;
+use std::str::FromStr;
+
+use serde::{Deserialize, Serialize};
+
+use super::{Engine, Identification, IdentifyError};
+use crate::drawing::Drawing;
+use crate::{Progress, Result};
+
+/// Names of the engines (design, section 3).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum EngineKind {
+    /// Rotation system decoded from scores per triple of edges; the default.
+    #[default]
+    Rotation,
+    /// String merging of Varley and Company (2010); straight edges only.
+    Varley,
+    /// Least-cost loop through each co-edge.
+    Shortest,
+}
+
+impl EngineKind {
+    /// Every engine, the default first.
+    pub const ALL: [Self; 3] = [Self::Rotation, Self::Varley, Self::Shortest];
+
+    /// All names, for messages: "rotation, varley, shortest".
+    pub fn names() -> String {
+        Self::ALL.map(Self::name).join(", ")
+    }
+
+    /// Name on the command line, in the C ABI and in results.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Rotation => "rotation",
+            Self::Varley => "varley",
+            Self::Shortest => "shortest",
+        }
+    }
+}
+
+impl fmt::Display for EngineKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+impl FromStr for EngineKind {
+    type Err = IdentifyError;
+
+    /// The engine of that name.
+    ///
+    /// # Errors
+    /// [`IdentifyError::UnknownEngine`], whose message lists the names there are.
+    fn from_str(name: &str) -> Result<Self, IdentifyError> {
+        Self::ALL
+            .into_iter()
+            .find(|kind| kind.name() == name)
+            .ok_or_else(|| IdentifyError::UnknownEngine(name.to_owned()))
+    }
+}
+
+/// The engine of that kind, with its default settings.
+pub fn engine(kind: EngineKind) -> Box<dyn Engine> {
+    Box::new(Absent(kind))
+}
+
+/// An engine that is not there yet.
+struct Absent(EngineKind);
+
+impl Engine for Absent {
+    fn name(&self) -> &'static str {
+        self.0.name()
+    }
+
+    fn identify(&self, _: &Drawing, _: Progress<'_>) -> Result<Identification> {
+        Err(IdentifyError::UnknownEngine(self.0.to_string()).into())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_round_trip() {
+        for kind in EngineKind::ALL {
+            assert_eq!(kind.to_string().parse(), Ok(kind));
+            assert_eq!(serde_json::to_value(kind).unwrap(), kind.name());
+        }
+        let unknown = "Varley".parse::<EngineKind>().unwrap_err();
+        assert!(unknown.to_string().contains("varley"), "{unknown}");
+    }
+}

@@ -1,0 +1,80 @@
+//! Known solids, drawn, for the tests of this crate.
+
+use glam::{DMat3, DVec3};
+
+use crate::drawing::{CoEdge, Curve2, Drawing, Edge, Projection, SurfaceKind, Truth, TruthFace};
+
+/// The drawing of a polyhedron, seen from a general direction, with its truth.
+///
+/// `faces` are lists of loops of vertex indices, the face on the left seen from outside. Edges are
+/// numbered in the order in which the faces first walk them.
+pub(crate) fn polyhedron(corners: &[[f64; 3]], faces: &[&[&[usize]]]) -> Drawing {
+    let view = DMat3::from_rotation_x(-0.9) * DMat3::from_rotation_z(0.55);
+    let vertices3d: Vec<DVec3> = corners.iter().map(|&p| view * DVec3::from(p)).collect();
+    let mut edges: Vec<Edge> = Vec::new();
+    let mut walk = |from: usize, to: usize| {
+        let known = edges
+            .iter()
+            .position(|e| e.v == [from, to] || e.v == [to, from]);
+        let edge = known.unwrap_or_else(|| {
+            edges.push(Edge {
+                v: [from, to],
+                points: vec![vertices3d[from].truncate(), vertices3d[to].truncate()],
+                curve: Curve2::Line,
+            });
+            edges.len() - 1
+        });
+        CoEdge::new(edge, edges[edge].v[0] != from)
+    };
+    let faces: Vec<TruthFace> = faces
+        .iter()
+        .map(|loops| TruthFace {
+            kind: SurfaceKind::Plane,
+            loops: loops
+                .iter()
+                .map(|l| {
+                    (0..l.len())
+                        .map(|i| walk(l[i], l[(i + 1) % l.len()]))
+                        .collect()
+                })
+                .collect(),
+        })
+        .collect();
+    Drawing {
+        id: String::new(),
+        source: String::new(),
+        projection: Projection::Orthographic,
+        vertices: vertices3d.iter().map(|p| p.truncate()).collect(),
+        truth: Some(Truth {
+            faces,
+            edges3d: edges
+                .iter()
+                .map(|e| e.v.iter().map(|&v| vertices3d[v]).collect())
+                .collect(),
+            vertices3d,
+            directions: vec![view.x_axis, view.y_axis, view.z_axis],
+        }),
+        edges,
+    }
+}
+
+/// A right prism of height `height` over a simple polygon, counter-clockwise seen from above.
+pub(crate) fn prism(outline: &[[f64; 2]], height: f64) -> Drawing {
+    let n = outline.len();
+    let level = |z: f64| outline.iter().map(move |&[x, y]| [x, y, z]);
+    let corners: Vec<[f64; 3]> = level(0.0).chain(level(height)).collect();
+    let top: Vec<usize> = (n..2 * n).collect();
+    let bottom: Vec<usize> = (0..n).rev().collect();
+    let sides: Vec<[usize; 4]> = (0..n)
+        .map(|i| [i, (i + 1) % n, n + (i + 1) % n, n + i])
+        .collect();
+    let mut faces: Vec<Vec<&[usize]>> = vec![vec![&bottom], vec![&top]];
+    faces.extend(sides.iter().map(|s| vec![s.as_slice()]));
+    let faces: Vec<&[&[usize]]> = faces.iter().map(Vec::as_slice).collect();
+    polyhedron(&corners, &faces)
+}
+
+/// A cube with edges of length 1: 8 vertices, 12 edges, 6 faces.
+pub(crate) fn cube() -> Drawing {
+    prism(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]], 1.0)
+}
