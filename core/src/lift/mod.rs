@@ -2,6 +2,7 @@
 
 mod error;
 mod model;
+pub mod system;
 
 pub use error::LiftError;
 pub use model::{Conflict, Lift, LiftMethod, LiftOptions, Surface};

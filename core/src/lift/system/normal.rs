@@ -1,0 +1,162 @@
+//! Least squares through scaled normal equations and a sparse Cholesky factor.
+
+use faer::linalg::solvers::Solve;
+use faer::sparse::linalg::solvers::Llt;
+use faer::sparse::{SparseColMat, Triplet};
+use faer::{Mat, Side};
+
+use super::{LiftError, NullSpace, Row, Solution, System};
+
+/// Added to the diagonal of the scaled normal matrix, whose diagonal is 1. A direction in which the
+/// rows say less than this (a singular value below 3e-6 of the largest) counts as left open: data
+/// rounded to 1e-6 of the size would give it an error of about the size.
+const EPS: f64 = 1e-11;
+
+/// Steps of iterative refinement; each shrinks the error that `EPS` brings by the factor
+/// `EPS / (EPS + eigenvalue)`.
+const REFINEMENTS: usize = 3;
+
+/// Steps of inverse iteration; each shrinks what is not null space by the same factor.
+const INVERSE_STEPS: usize = 3;
+
+/// Columns of the first block of inverse iteration; doubled while the null space fills it.
+const BLOCK: usize = 6;
+
+/// Length below which a vector of the iterated block is no null vector.
+const NULL_LENGTH: f64 = 1e-3;
+
+pub(super) fn solve<T>(system: &System<T>, active: &[bool]) -> Result<Solution, LiftError> {
+    let factor = Factor::new(system, active)?;
+    let n = system.unknowns();
+    let mut x = vec![0.0; n];
+    for _ in 0..=REFINEMENTS {
+        // Gradient of the sum of squares, in scaled unknowns.
+        let mut g = Mat::<f64>::zeros(n, 1);
+        for row in used(system, active) {
+            let r = row.residual(&x) * row.weight * row.weight;
+            for &(i, c) in &row.terms {
+                g[(i, 0)] -= r * c * factor.scale[i];
+            }
+        }
+        let step = factor.llt.solve(&g);
+        for i in 0..n {
+            x[i] += step[(i, 0)] * factor.scale[i];
+        }
+    }
+    if !x.iter().all(|v| v.is_finite()) {
+        return Err(LiftError::Solver("the solution is not finite".into()));
+    }
+    let null_space = factor.null_space();
+    Ok(system.solution(x, null_space))
+}
+
+pub(super) fn null_space<T>(system: &System<T>) -> Result<NullSpace, LiftError> {
+    Ok(Factor::new(system, &vec![true; system.rows().len()])?.null_space())
+}
+
+fn used<'a, T>(system: &'a System<T>, active: &'a [bool]) -> impl Iterator<Item = &'a Row<T>> {
+    let rows = system.rows().iter().zip(active);
+    rows.filter(|(row, used)| **used && row.weight > 0.0)
+        .map(|(row, _)| row)
+}
+
+/// Factor of the scaled normal matrix.
+struct Factor {
+    llt: Llt<usize, f64>,
+    /// Reciprocal column lengths of the weighted matrix; 1 for empty columns.
+    scale: Vec<f64>,
+}
+
+impl Factor {
+    fn new<T>(system: &System<T>, active: &[bool]) -> Result<Self, LiftError> {
+        let n = system.unknowns();
+        let mut diagonal = vec![0.0; n];
+        for row in used(system, active) {
+            for &(i, c) in &row.terms {
+                diagonal[i] += (row.weight * c).powi(2);
+            }
+        }
+        let scale: Vec<f64> = diagonal
+            .iter()
+            .map(|&d| if d > 0.0 { d.sqrt().recip() } else { 1.0 })
+            .collect();
+        let mut triplets: Vec<_> = (0..n).map(|i| Triplet::new(i, i, EPS)).collect();
+        for row in used(system, active) {
+            let w = row.weight * row.weight;
+            for (k, &(i, a)) in row.terms.iter().enumerate() {
+                let scaled = w * a * scale[i];
+                let lower = row.terms[..=k].iter();
+                triplets.extend(lower.map(|&(j, b)| Triplet::new(i, j, scaled * b * scale[j])));
+            }
+        }
+        let matrix = SparseColMat::try_new_from_triplets(n, n, &triplets)
+            .map_err(|e| LiftError::Solver(format!("{e:?}")))?;
+        let llt = matrix
+            .sp_cholesky(Side::Lower)
+            .map_err(|e| LiftError::Solver(format!("factorisation: {e:?}")))?;
+        Ok(Self { llt, scale })
+    }
+
+    /// Inverse iteration on a block of pseudo-random vectors: what survives is null space.
+    fn null_space(&self) -> NullSpace {
+        let n = self.scale.len();
+        let mut width = BLOCK.min(n);
+        loop {
+            let mut block = Mat::from_fn(n, width, noise);
+            for _ in 0..INVERSE_STEPS {
+                block = self.llt.solve(&block);
+                block *= faer::Scale(EPS);
+            }
+            let basis = independent_columns(&block);
+            if basis.len() < width || width == n {
+                return NullSpace::new(&basis, &self.scale);
+            }
+            width = (2 * width).min(n);
+        }
+    }
+}
+
+/// Repeatable noise in [-1, 1]: the null space must not depend on chance.
+fn noise(row: usize, column: usize) -> f64 {
+    let mut h = (row as u64)
+        .wrapping_mul(0x9E37_79B9_7F4A_7C15)
+        .wrapping_add((column as u64 + 1).wrapping_mul(0xD1B5_4A32_D192_ED03));
+    h = (h ^ (h >> 32)).wrapping_mul(0xD6E8_FEB8_6659_FD93);
+    h = (h ^ (h >> 32)).wrapping_mul(0xD6E8_FEB8_6659_FD93);
+    (h >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+}
+
+/// Orthonormal basis of the columns, by Gram-Schmidt with pivoting, twice for accuracy.
+fn independent_columns(block: &Mat<f64>) -> Vec<Vec<f64>> {
+    let mut left: Vec<Vec<f64>> = (0..block.ncols())
+        .map(|k| (0..block.nrows()).map(|i| block[(i, k)]).collect())
+        .collect();
+    let mut basis: Vec<Vec<f64>> = Vec::new();
+    while let Some(at) =
+        (0..left.len()).max_by(|&a, &b| dot(&left[a], &left[a]).total_cmp(&dot(&left[b], &left[b])))
+    {
+        let mut v = left.swap_remove(at);
+        for b in &basis {
+            remove(&mut v, b);
+        }
+        let length = dot(&v, &v).sqrt();
+        if length < NULL_LENGTH {
+            break;
+        }
+        v.iter_mut().for_each(|c| *c /= length);
+        for other in &mut left {
+            remove(other, &v);
+        }
+        basis.push(v);
+    }
+    basis
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
+}
+
+fn remove(v: &mut [f64], unit: &[f64]) {
+    let d = dot(v, unit);
+    v.iter_mut().zip(unit).for_each(|(c, u)| *c -= d * u);
+}
