@@ -4,14 +4,23 @@
 //! and ends there, all numbers are finite and the size is within [`Limits`]. Input that lists
 //! curves without vertices goes through clean-up first and becomes a [`CleanDrawing`].
 
+mod clean;
 mod coedge;
 mod curve;
+pub mod dataset;
+mod diagnose;
 mod error;
+mod format;
 mod graph;
 mod model;
+mod report;
 
+pub use clean::{CleanOptions, clean};
 pub use coedge::CoEdge;
 pub use curve::{Curve2, EllipseArc};
+pub use diagnose::diagnose;
 pub use error::DrawingError;
+pub use format::read;
 pub use graph::Graph;
 pub use model::{Drawing, Edge, Limits, Projection, SurfaceKind, Truth, TruthFace};
+pub use report::{CleanDrawing, Finding, FindingKind, Report, Severity};

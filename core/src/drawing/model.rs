@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 
-use super::{CoEdge, Curve2, DrawingError};
+use super::{CoEdge, Curve2};
 
 /// Kind of projection that made a drawing.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
@@ -116,13 +116,16 @@ pub struct Drawing {
     pub truth: Option<Truth>,
 }
 
-/// Largest drawing that is worked on; larger ones are refused by name of the limit.
+/// Largest drawing that is worked on; larger ones are refused by name of the limit. There may be
+/// twice as many vertices as edges.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Limits {
     /// Edges of a drawing.
     pub edges: usize,
     /// Points of one edge's polyline.
     pub points: usize,
+    /// Points of all edges together.
+    pub total_points: usize,
 }
 
 impl Default for Limits {
@@ -130,6 +133,7 @@ impl Default for Limits {
         Self {
             edges: 5_000,
             points: 10_000,
+            total_points: 500_000,
         }
     }
 }
@@ -146,49 +150,4 @@ impl Drawing {
             0.0
         }
     }
-
-    /// Reads one drawing in the interchange format.
-    ///
-    /// # Errors
-    /// [`DrawingError`] naming the edge or vertex that is wrong.
-    pub fn from_json(text: &str) -> Result<Self, DrawingError> {
-        let raw: RawDrawing =
-            serde_json::from_str(text).map_err(|e| DrawingError::Format(e.to_string()))?;
-        let edges = raw
-            .edges
-            .into_iter()
-            .map(|e| Edge {
-                v: e.v,
-                curve: Curve2::recognise(&e.points),
-                points: e.points,
-            })
-            .collect();
-        Ok(Self {
-            id: raw.id,
-            source: raw.source,
-            projection: raw.projection,
-            vertices: raw.vertices,
-            edges,
-            truth: raw.truth,
-        })
-    }
-}
-
-#[derive(Deserialize)]
-struct RawEdge {
-    v: [usize; 2],
-    points: Vec<DVec2>,
-}
-
-#[derive(Deserialize)]
-struct RawDrawing {
-    #[serde(default)]
-    id: String,
-    #[serde(default)]
-    source: String,
-    #[serde(default)]
-    projection: Projection,
-    vertices: Vec<DVec2>,
-    edges: Vec<RawEdge>,
-    truth: Option<Truth>,
 }
