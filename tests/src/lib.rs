@@ -20,7 +20,8 @@ pub fn profile_dir() -> PathBuf {
     let exe = std::env::current_exe().expect("a running program has a path");
     // .../release/deps/cli-0123456789abcdef
     let dir = exe.parent().and_then(Path::parent);
-    dir.expect("cargo runs tests from its deps folder").to_path_buf()
+    dir.expect("cargo runs tests from its deps folder")
+        .to_path_buf()
 }
 
 /// Builds a package of this workspace with the profile of the running test.
@@ -34,9 +35,18 @@ pub fn build(package: &str) {
         Some(name) => name,
     };
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let target = dir.parent().expect("the profile's folder lies in the target folder");
+    let target = dir
+        .parent()
+        .expect("the profile's folder lies in the target folder");
     let output = Command::new(cargo)
-        .args(["build", "--quiet", "--package", package, "--profile", profile])
+        .args([
+            "build",
+            "--quiet",
+            "--package",
+            package,
+            "--profile",
+            profile,
+        ])
         .arg("--target-dir")
         .arg(target)
         .current_dir(root())
