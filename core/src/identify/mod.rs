@@ -8,7 +8,9 @@ mod error;
 mod faces;
 pub mod metrics;
 mod model;
+pub mod postprocess;
 mod registry;
+mod shortest;
 #[cfg(test)]
 pub(crate) mod testing;
 
@@ -16,3 +18,4 @@ pub use error::IdentifyError;
 pub use faces::{FILE, TRUTH, from_truth, read_faces};
 pub use model::{Candidate, Engine, Evidence, Face, Identification};
 pub use registry::{EngineKind, engine};
+pub use shortest::ShortestEngine;

@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Engine, Identification, IdentifyError};
+use super::{Engine, Identification, IdentifyError, ShortestEngine};
 use crate::drawing::Drawing;
 use crate::{Progress, Result};
 
@@ -65,7 +65,10 @@ impl FromStr for EngineKind {
 
 /// The engine of that kind, with its default settings.
 pub fn engine(kind: EngineKind) -> Box<dyn Engine> {
-    Box::new(Absent(kind))
+    match kind {
+        EngineKind::Shortest => Box::new(ShortestEngine::default()),
+        EngineKind::Rotation | EngineKind::Varley => Box::new(Absent(kind)),
+    }
 }
 
 /// An engine that is not there yet.

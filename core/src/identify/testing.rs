@@ -78,3 +78,60 @@ pub(crate) fn prism(outline: &[[f64; 2]], height: f64) -> Drawing {
 pub(crate) fn cube() -> Drawing {
     prism(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]], 1.0)
 }
+
+/// A tetrahedron: 4 vertices, 6 edges, 4 faces.
+pub(crate) fn tetrahedron() -> Drawing {
+    polyhedron(
+        &[
+            [0.0, 0.0, 0.0],
+            [1.0, 0.0, 0.0],
+            [0.2, 0.9, 0.0],
+            [0.4, 0.3, 0.8],
+        ],
+        &[&[&[0, 2, 1]], &[&[0, 1, 3]], &[&[1, 2, 3]], &[&[2, 0, 3]]],
+    )
+}
+
+/// A wedge, a prism over a right triangle: 6 vertices, 9 edges, 5 faces.
+pub(crate) fn wedge() -> Drawing {
+    prism(&[[0.0, 0.0], [1.5, 0.0], [0.0, 0.7]], 1.0)
+}
+
+/// An L-bracket: 12 vertices, 18 edges, 8 faces, two of them hexagons.
+pub(crate) fn bracket() -> Drawing {
+    let outline = [
+        [0.0, 0.0],
+        [2.0, 0.0],
+        [2.0, 0.4],
+        [0.5, 0.4],
+        [0.5, 1.5],
+        [0.0, 1.5],
+    ];
+    prism(&outline, 1.0)
+}
+
+/// A cube with a square hole through it: two components, two faces with an inner loop each.
+pub(crate) fn holed_cube() -> Drawing {
+    let square = |lo: f64, hi: f64| [[lo, lo], [hi, lo], [hi, hi], [lo, hi]];
+    let mut corners = Vec::new();
+    for outline in [square(0.0, 1.0), square(0.3, 0.6)] {
+        for z in [0.0, 1.0] {
+            corners.extend(outline.map(|[x, y]| [x, y, z]));
+        }
+    }
+    polyhedron(
+        &corners,
+        &[
+            &[&[3, 2, 1, 0], &[8, 9, 10, 11]],
+            &[&[4, 5, 6, 7], &[15, 14, 13, 12]],
+            &[&[0, 1, 5, 4]],
+            &[&[1, 2, 6, 5]],
+            &[&[2, 3, 7, 6]],
+            &[&[3, 0, 4, 7]],
+            &[&[8, 12, 13, 9]],
+            &[&[9, 13, 14, 10]],
+            &[&[10, 14, 15, 11]],
+            &[&[11, 15, 12, 8]],
+        ],
+    )
+}
