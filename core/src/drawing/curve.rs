@@ -31,6 +31,13 @@ pub struct EllipseArc {
     pub sweep: f64,
     /// Largest distance of the edge's points from the fitted ellipse, in drawing units.
     pub residual: f64,
+    /// Standard uncertainty that the points' scatter leaves, the larger of the relative one of the
+    /// major axis and the one of `ratio`; at most 1.
+    ///
+    /// Points rounded to 1e-6 leave about 1e-6 at half a turn, 1e-4 at 70 degrees, 1e-2 at 30
+    /// degrees, and below 15 degrees the curve is known but its axes are not.
+    #[serde(default)]
+    pub uncertainty: f64,
 }
 
 impl EllipseArc {
@@ -44,19 +51,16 @@ impl EllipseArc {
         self.center + self.major * t.cos() + self.minor() * t.sin()
     }
 
+    /// Parameter of the point of the ellipse in the affine direction of `p`, -pi to pi.
+    pub fn parameter(&self, p: DVec2) -> f64 {
+        let q = p - self.center;
+        self.minor()
+            .dot(q)
+            .atan2(self.major.dot(q) * self.ratio.powi(2))
+    }
+
     /// Derivative of [`point`](Self::point) by `t`.
     pub fn derivative(&self, t: f64) -> DVec2 {
         self.minor() * t.cos() - self.major * t.sin()
-    }
-}
-
-impl Curve2 {
-    /// Recognises the polyline of an edge: two points, or points on one segment, are a line.
-    pub fn recognise(points: &[DVec2]) -> Self {
-        if points.len() == 2 {
-            Self::Line
-        } else {
-            Self::Polyline
-        }
     }
 }

@@ -9,10 +9,12 @@ mod coedge;
 mod curve;
 pub mod dataset;
 mod diagnose;
+mod ellipse;
 mod error;
 mod format;
 mod graph;
 mod model;
+mod recognise;
 mod report;
 
 pub use clean::{CleanOptions, clean};

@@ -13,6 +13,10 @@ const END_GAP: f64 = 1e-4;
 /// no direction.
 const SHORTEST: f64 = 1e-6;
 
+/// Error of the coordinates of a drawing that is taken at its word, relative to its size: files
+/// have six decimals.
+const ROUNDING: f64 = 2e-6;
+
 /// Sizes in which squares and their products neither overflow nor vanish.
 const SIZES: std::ops::RangeInclusive<f64> = 1e-60..=1e60;
 
@@ -81,13 +85,14 @@ impl Drawing {
 
     /// The same drawing with end points moved onto their vertices and every curve recognised.
     pub(super) fn recognised(mut self) -> Self {
+        let noise = ROUNDING * self.size();
         for e in &mut self.edges {
             let ends = e.v.map(|v| self.vertices[v]);
             if let [first, .., last] = e.points.as_mut_slice() {
                 *first = ends[0];
                 *last = ends[1];
             }
-            e.curve = Curve2::recognise(&e.points);
+            e.curve = Curve2::recognise_within(&e.points, noise);
         }
         self
     }
