@@ -1,0 +1,127 @@
+//! The command line: what can be typed. Scripts rely on the names here.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use faceformer::identify::EngineKind;
+
+use crate::render::Labels;
+
+/// Turns 2D wireframe drawings of solids into CAD solids.
+#[derive(Debug, Parser)]
+#[command(name = "faceformer", version, propagate_version = true)]
+#[command(after_help = "\
+DRAWING is a JSON file, DATA.jsonl#ID or DATA.jsonl.zst#ID for one drawing of a data set, or - for \
+standard input.
+
+Exit status: 0 done, 1 the work failed, 2 bad input or usage.")]
+pub(crate) struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Read and clean a drawing, and say what is wrong with it
+    Check(CheckArgs),
+    /// Find the faces of a drawing
+    Identify(IdentifyArgs),
+    /// Measure faces, depth and solids on drawings with known truth
+    Eval(EvalArgs),
+    /// Draw a picture of a drawing and its faces
+    Render(RenderArgs),
+}
+
+/// Where the faces come from.
+#[derive(Debug, Args)]
+pub(crate) struct FacesArgs {
+    /// Engine that finds the faces [default: rotation] [rotation, varley, shortest]
+    #[arg(long, value_name = "E", conflicts_with = "faces")]
+    pub(crate) engine: Option<EngineKind>,
+    /// Use these faces: "truth" for those in the drawing, or a file that `identify` wrote
+    #[arg(long, value_name = "truth|FILE")]
+    pub(crate) faces: Option<String>,
+}
+
+/// Arguments of `check`.
+#[derive(Debug, Args)]
+pub(crate) struct CheckArgs {
+    /// The drawing
+    pub(crate) drawing: String,
+    /// Print one JSON object: the cleaned drawing, the sources of its edges, the findings
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// Arguments of `identify`.
+#[derive(Debug, Args)]
+pub(crate) struct IdentifyArgs {
+    /// The drawing
+    pub(crate) drawing: String,
+    /// Engine that finds the faces [rotation, varley, shortest]
+    #[arg(long, value_name = "E", default_value_t)]
+    pub(crate) engine: EngineKind,
+    /// File for the faces (JSON); standard output without it
+    #[arg(short, long, value_name = "FACES.json")]
+    pub(crate) output: Option<PathBuf>,
+}
+
+/// Which drawings of a data set are measured, by their truth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Shapes {
+    /// Every drawing.
+    All,
+    /// All faces are planes.
+    Polyhedra,
+    /// All faces are planes with one loop each.
+    PolyhedraSingle,
+    /// All faces are planes and cylinders.
+    PlanesCylinders,
+}
+
+/// Arguments of `eval`.
+#[derive(Debug, Args)]
+pub(crate) struct EvalArgs {
+    /// Data set: .jsonl or .jsonl.zst, every drawing with its truth
+    pub(crate) data: PathBuf,
+    #[command(flatten)]
+    pub(crate) faces: FacesArgs,
+    /// Measure the first N drawings only
+    #[arg(long, value_name = "N")]
+    pub(crate) limit: Option<usize>,
+    /// Which drawings to measure
+    #[arg(long, value_enum, default_value_t = Shapes::All)]
+    pub(crate) shapes: Shapes,
+    /// Print one JSON object
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// File for what was refused or failed: JSON lines with id, stage and message
+    #[arg(long, value_name = "FILE")]
+    pub(crate) failures: Option<PathBuf>,
+}
+
+/// Arguments of `render`.
+#[derive(Debug, Args)]
+pub(crate) struct RenderArgs {
+    /// The drawing
+    pub(crate) drawing: String,
+    #[command(flatten)]
+    pub(crate) faces: FacesArgs,
+    /// File for the picture: .svg or .png
+    #[arg(short, long, value_name = "OUT")]
+    pub(crate) output: PathBuf,
+    /// What to number
+    #[arg(long, value_enum, default_value_t = Labels::Faces)]
+    pub(crate) labels: Labels,
+    /// Text above the picture; the drawing's id without it
+    #[arg(long, value_name = "TEXT")]
+    pub(crate) title: Option<String>,
+    /// Width of the picture in pixels
+    #[arg(long, value_name = "PX", default_value_t = 960, value_parser = clap::value_parser!(u32).range(160..=8192))]
+    pub(crate) width: u32,
+    /// Height of the picture in pixels; follows from the drawing without it
+    #[arg(long, value_name = "PX", value_parser = clap::value_parser!(u32).range(160..=8192))]
+    pub(crate) height: Option<u32>,
+}

@@ -1,0 +1,149 @@
+//! The figures of a whole data set, as JSON and as a table.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+use faceformer::identify::metrics::Summary;
+use serde::Serialize;
+
+use super::measure::Measured;
+
+/// What `eval --json` prints. Shares are 0 to 100, times are milliseconds.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub(crate) struct Figures {
+    #[serde(flatten)]
+    summary: Summary,
+}
+
+impl Figures {
+    /// The figures of the measured drawings.
+    pub(crate) fn of(measured: &[Measured]) -> Self {
+        Self {
+            summary: measured.iter().map(|m| &m.score).collect(),
+        }
+    }
+
+    /// The figures as text, with the reasons of what was refused or failed.
+    pub(crate) fn table(&self, measured: &[Measured]) -> String {
+        let s = &self.summary;
+        let mut text = format!(
+            "{} drawings, {} faces, {} refused\n\n\
+             faces   precision {:6.2}   recall {:6.2}   exact {:6.2}   exact in top 3 {:6.2}\n\
+             types   paper's   {:6.2}   all six {:5.2}\n\
+             loops   precision {:6.2}   recall {:6.2}   exact {:6.2}\n\
+             time    median {:.3} ms   99th percentile {:.3} ms\n",
+            s.drawings,
+            s.faces,
+            s.refused,
+            s.precision,
+            s.recall,
+            s.exact,
+            s.exact_top3,
+            s.type_rate,
+            s.surface_rate,
+            s.loop_precision,
+            s.loop_recall,
+            s.loops_exact,
+            s.ms_median,
+            s.ms_p99,
+        );
+        let reasons = reasons(measured);
+        if !reasons.is_empty() {
+            text.push_str("\nrefused or failed (numbers masked)\n");
+        }
+        for ((stage, message), count) in reasons {
+            // Writing to a string cannot fail.
+            writeln!(text, "{count:5}  {stage:8}  {message}").ok();
+        }
+        text
+    }
+}
+
+/// How often each reason came up, the most frequent first.
+fn reasons(measured: &[Measured]) -> Vec<((&'static str, String), usize)> {
+    let mut counts = BTreeMap::new();
+    for failed in measured.iter().flat_map(|m| &m.failed) {
+        *counts
+            .entry((failed.stage, mask(&failed.message)))
+            .or_insert(0) += 1;
+    }
+    let mut counts: Vec<_> = counts.into_iter().collect();
+    counts.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
+    counts
+}
+
+/// A message without its numbers, so that equal reasons are counted together; lists of numbers
+/// count as one.
+fn mask(message: &str) -> String {
+    let mut out = String::new();
+    let mut number = false;
+    for c in message.chars() {
+        let part = c.is_ascii_digit() || (number && matches!(c, '.' | '-' | '+' | 'e'));
+        if part && !number {
+            out.push('#');
+        } else if !part {
+            out.push(c);
+        }
+        number = part;
+    }
+    while out.contains("#, #") {
+        out = out.replace("#, #", "#");
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use faceformer::identify::metrics::DrawingScore;
+
+    use super::*;
+    use crate::eval::measure::Failed;
+
+    fn one(messages: &[&str]) -> Measured {
+        Measured {
+            score: DrawingScore {
+                faces: 4,
+                predicted: 4,
+                matched: 2,
+                ms: 1.0,
+                ..DrawingScore::default()
+            },
+            failed: messages
+                .iter()
+                .map(|message| Failed {
+                    id: "a".to_owned(),
+                    stage: "lift",
+                    message: (*message).to_owned(),
+                })
+                .collect(),
+        }
+    }
+
+    #[test]
+    fn json_is_one_flat_object() {
+        let measured = [one(&[]), one(&[])];
+        let value = serde_json::to_value(Figures::of(&measured)).unwrap();
+        for (key, expected) in [
+            ("drawings", 2.0),
+            ("faces", 8.0),
+            ("precision", 50.0),
+            ("recall", 50.0),
+            ("exact", 0.0),
+        ] {
+            assert_eq!(value[key].as_f64(), Some(expected), "{key}");
+        }
+    }
+
+    #[test]
+    fn reasons_are_counted_without_their_numbers() {
+        let measured = [
+            one(&["vertices [1, 2, 30] open by 1.5e-3; fix"]),
+            one(&["vertices [7] open by 2e+4; fix", "other"]),
+        ];
+        let counted = reasons(&measured);
+        assert_eq!(counted[0].0.1, "vertices [#] open by #; fix");
+        assert_eq!((counted[0].1, counted[1].1), (2, 1));
+        let table = Figures::of(&measured).table(&measured);
+        assert!(table.contains("2  lift"), "{table}");
+    }
+}

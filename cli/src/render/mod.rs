@@ -1,0 +1,169 @@
+//! `faceformer render`: a picture of a drawing and its faces.
+
+mod page;
+mod palette;
+mod polygon;
+mod raster;
+mod view;
+mod wireframe;
+
+use std::path::Path;
+
+use faceformer::drawing::Drawing;
+use faceformer::identify::Identification;
+use glam::DVec2;
+
+use crate::args::RenderArgs;
+use crate::failure::Failure;
+use crate::output::Output;
+use crate::stages::{FacesFrom, tell, usable};
+use page::{Anchor, Page};
+use palette::{KINDS, Rgb};
+use view::{Frame, View};
+
+pub(crate) use raster::RasterError as RenderError;
+pub(crate) use wireframe::Labels;
+
+/// Blank border of the page and between its parts, in pixels.
+const MARGIN: f64 = 24.0;
+/// Height of the title, in pixels.
+const TITLE: f64 = 52.0;
+/// Height of the legend, in pixels.
+const LEGEND: f64 = 32.0;
+const INK: Rgb = Rgb(34, 38, 43);
+const QUIET: Rgb = Rgb(104, 112, 120);
+
+/// Formats of a picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Target {
+    Svg,
+    Png,
+}
+
+impl Target {
+    fn of(path: &Path) -> Result<Self, Failure> {
+        let ending = path.extension().and_then(|e| e.to_str()).unwrap_or("");
+        match ending.to_ascii_lowercase().as_str() {
+            "svg" => Ok(Self::Svg),
+            "png" => Ok(Self::Png),
+            _ => Err(Failure::Usage(format!(
+                "{}: the ending says the format, and must be .svg or .png",
+                path.display()
+            ))),
+        }
+    }
+}
+
+/// Makes the picture and writes it.
+///
+/// # Errors
+/// [`Failure`].
+pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
+    let target = Target::of(&args.output)?;
+    let output = Output::create(&args.output)?;
+    let drawing = usable(&args.drawing)?;
+    let found = FacesFrom::new(&args.faces).faces(&drawing)?;
+    tell(&found.notices);
+    let svg = picture(args, &drawing, &found).to_svg();
+    match target {
+        Target::Svg => output.write(svg.as_bytes())?,
+        Target::Png => {
+            let png = raster::png(&svg)?;
+            if !png.has_text {
+                eprintln!("faceformer: note: no font is installed, so the picture has no text");
+            }
+            output.write(&png.bytes)?;
+        }
+    }
+    output.commit()
+}
+
+/// The whole page: title, panel, legend.
+fn picture(args: &RenderArgs, drawing: &Drawing, found: &Identification) -> Page {
+    let width = f64::from(args.width);
+    let points = || drawing.edges.iter().flat_map(|e| e.points.iter().copied());
+    let (min, max) = view::bounds(points());
+    let inner = width - 2.0 * MARGIN;
+    let chrome = TITLE + LEGEND + 2.0 * MARGIN;
+    let height = match args.height {
+        Some(height) => f64::from(height).max(chrome + 32.0),
+        None => {
+            let aspect = (max.y - min.y) / (max.x - min.x);
+            let aspect = if aspect.is_finite() { aspect } else { 1.0 };
+            (chrome + inner * aspect.clamp(0.4, 1.0)).round()
+        }
+    };
+    let mut page = Page::new(width, height);
+    draw_title(&mut page, args, drawing, found);
+    let frame = Frame {
+        corner: DVec2::new(MARGIN, TITLE + MARGIN),
+        size: DVec2::new(inner, height - chrome),
+    };
+    let view = View::fit(points(), frame);
+    let colours = colours(found);
+    wireframe::draw(
+        &mut page,
+        &view,
+        drawing,
+        &found.faces,
+        &colours,
+        args.labels,
+    );
+    draw_legend(&mut page, height - LEGEND, drawing, found);
+    page
+}
+
+/// One colour a face: the hue says the kind, the shade tells faces apart.
+fn colours(found: &Identification) -> Vec<Rgb> {
+    let mut counts = [0usize; KINDS.len()];
+    found
+        .faces
+        .iter()
+        .map(|face| {
+            let n = &mut counts[face.kind as usize];
+            *n += 1;
+            palette::shade(face.kind, *n - 1)
+        })
+        .collect()
+}
+
+fn draw_title(page: &mut Page, args: &RenderArgs, drawing: &Drawing, found: &Identification) {
+    let title = match &args.title {
+        Some(title) => title,
+        None if drawing.id.is_empty() => &args.drawing,
+        None => &drawing.id,
+    };
+    let below = format!(
+        "{} edges, {} faces ({})",
+        drawing.edges.len(),
+        found.faces.len(),
+        found.engine
+    );
+    let at = |y: f64| DVec2::new(MARGIN, y);
+    page.text(at(30.0), title, 18.0, INK, Anchor::Start, false);
+    page.text(at(50.0), &below, 13.0, QUIET, Anchor::Start, false);
+}
+
+fn draw_legend(page: &mut Page, top: f64, drawing: &Drawing, found: &Identification) {
+    const SWATCH: f64 = 13.0;
+    let mut x = MARGIN;
+    let y = top + SWATCH - 2.0;
+    for kind in KINDS {
+        let count = found.faces.iter().filter(|f| f.kind == kind).count();
+        if count == 0 {
+            continue;
+        }
+        let corner = DVec2::new(x, top);
+        page.rect(corner, DVec2::splat(SWATCH), palette::kind_colour(kind));
+        let text = format!("{} {count}", palette::kind_name(kind));
+        let at = DVec2::new(x + SWATCH + 6.0, y);
+        page.text(at, &text, 13.0, INK, Anchor::Start, false);
+        // No font is measured here; 7.5 pixels a letter is ample for this size.
+        x += SWATCH + 6.0 + 7.5 * text.len() as f64 + 14.0;
+    }
+    let open = wireframe::open_edges(drawing, &found.faces).len();
+    if open > 0 {
+        let text = format!("dashed: {open} edges without two faces");
+        page.text(DVec2::new(x, y), &text, 13.0, QUIET, Anchor::Start, false);
+    }
+}

@@ -1,0 +1,102 @@
+//! The first stages: a usable drawing, its faces, its depth.
+
+use faceformer::Progress;
+use faceformer::drawing::{CleanDrawing, Drawing, Finding, Severity};
+use faceformer::identify::{self, EngineKind, Identification};
+
+use crate::args::{FacesArgs, IdentifyArgs};
+use crate::failure::Failure;
+use crate::output::{Output, finish, json_line};
+use crate::source;
+
+/// Where faces come from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum FacesFrom {
+    /// An engine finds them.
+    Engine(EngineKind),
+    /// The drawing's truth.
+    Truth,
+    /// A faces file.
+    File(String),
+}
+
+impl FacesFrom {
+    /// What the command line asks for.
+    pub(crate) fn new(args: &FacesArgs) -> Self {
+        match (&args.faces, args.engine) {
+            (Some(name), _) if name == "truth" => Self::Truth,
+            (Some(name), _) => Self::File(name.clone()),
+            (None, engine) => Self::Engine(engine.unwrap_or_default()),
+        }
+    }
+
+    /// The faces of a drawing.
+    ///
+    /// # Errors
+    /// [`Failure::Stage`] if the engine refuses the drawing, [`Failure::Usage`] if it has no truth,
+    /// [`Failure::Faces`] if the file does not fit it.
+    pub(crate) fn faces(&self, drawing: &Drawing) -> Result<Identification, Failure> {
+        match self {
+            Self::Engine(kind) => Ok(identify::engine(*kind).identify(drawing, Progress::none())?),
+            Self::Truth => identify::from_truth(drawing).ok_or_else(|| {
+                Failure::Usage(
+                    "the drawing has no truth: name an engine, or a file of faces".to_owned(),
+                )
+            }),
+            Self::File(name) => {
+                identify::read_faces(drawing, &source::text(name)?).map_err(|source| {
+                    Failure::Faces {
+                        name: name.clone(),
+                        source,
+                    }
+                })
+            }
+        }
+    }
+}
+
+/// Reads a drawing, tells the user what was found in it, and refuses it if it shows no solid.
+///
+/// # Errors
+/// [`Failure::Read`], [`Failure::Drawing`], and [`Failure::Unusable`] with the first finding.
+pub(crate) fn usable(name: &str) -> Result<Drawing, Failure> {
+    let CleanDrawing {
+        drawing, report, ..
+    } = source::load(name)?;
+    let (errors, rest): (Vec<&Finding>, Vec<&Finding>) = report
+        .findings
+        .iter()
+        .partition(|f| f.severity == Severity::Error);
+    if let Some((first, further)) = errors.split_first() {
+        return Err(Failure::Unusable {
+            name: name.to_owned(),
+            first: first.message.clone(),
+            further: further.len(),
+        });
+    }
+    for finding in rest {
+        if finding.severity == Severity::Warning {
+            eprintln!("faceformer: warning: {}", finding.message);
+        }
+    }
+    Ok(drawing)
+}
+
+/// Passes an identification's notices on to the user.
+pub(crate) fn tell(notices: &[String]) {
+    for notice in notices {
+        eprintln!("faceformer: note: {notice}");
+    }
+}
+
+/// `faceformer identify`.
+///
+/// # Errors
+/// [`Failure`].
+pub(crate) fn run_identify(args: &IdentifyArgs) -> Result<(), Failure> {
+    let output = args.output.as_deref().map(Output::create).transpose()?;
+    let drawing = usable(&args.drawing)?;
+    let found = FacesFrom::Engine(args.engine).faces(&drawing)?;
+    tell(&found.notices);
+    finish(output, &json_line(&found)?)
+}
