@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The way from an edge list to a solid: library calls, and a small store of recent results.
+
+Nothing here touches FreeCAD, so all of it may run in a thread. A command computes in a thread
+with progress; the parametric object then asks for the same work and finds it in the store.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections import OrderedDict
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import Any, TypeVar
+
+from . import _native
+from .errors import BadInput
+from .model import Drawing, Identification
+
+ENGINES = ("rotation", "varley", "shortest")
+"""Engines of the library, the default first."""
+
+ORIENTATIONS = ("upright", "drawn")
+"""``upright`` turns the model so that its axes are the main axes, ``drawn`` leaves it as seen."""
+
+Progress = _native.Progress
+Result = TypeVar("Result")
+
+
+@dataclass(frozen=True)
+class Identified:
+    """A drawing, its faces, and the library's own handle on the drawing."""
+
+    text: str
+    identification: Identification
+    native: _native.Drawing = field(repr=False, compare=False)
+
+
+@dataclass(frozen=True)
+class SolidOptions:
+    """What the user may choose about the solid."""
+
+    scale: float = 1.0
+    flip: bool = False
+    orientation: str = "upright"
+    reading: int = 0
+    """Which set of faces: 0 is the best, 1 the first alternative."""
+    off: tuple[str, ...] = ()
+    """Keys of faces that are switched off."""
+
+    def native(self) -> dict[str, Any]:
+        """The options as the library takes them."""
+        return {"flip": self.flip, "scale": self.scale, "orientation": self.orientation}
+
+
+@dataclass(frozen=True)
+class Built:
+    """A solid as BREP text with its measures."""
+
+    brep: str = field(repr=False)
+    report: dict[str, Any]
+    lift: dict[str, Any] = field(repr=False)
+    plan: dict[str, Any] = field(repr=False)
+
+    @property
+    def notices(self) -> tuple[str, ...]:
+        """What was snapped, and which faces conflict."""
+        conflicts = tuple(
+            f"Face {conflict['face'] + 1} does not agree with the others."
+            for conflict in self.lift.get("conflicts", [])
+        )
+        return tuple(self.plan.get("notices", [])) + conflicts
+
+
+class _Store:
+    """The most recent results; safe for threads."""
+
+    def __init__(self, size: int):
+        self._size = size
+        self._lock = threading.Lock()
+        self._items: OrderedDict[Any, Any] = OrderedDict()
+
+    def get(self, key: Any, make: Callable[[], Result]) -> Result:
+        with self._lock:
+            if key in self._items:
+                self._items.move_to_end(key)
+                return self._items[key]
+        made = make()
+        with self._lock:
+            self._items[key] = made
+            while len(self._items) > self._size:
+                self._items.popitem(last=False)
+        return made
+
+
+_identified = _Store(8)
+_built = _Store(8)
+
+
+def read(text: str, names: Sequence[str]) -> tuple[_native.Drawing, Drawing]:
+    """Reads and cleans an edge list; fast."""
+    native = _native.read_drawing(text)
+    return native, Drawing.parse(native.report(), names)
+
+
+def identify(
+    text: str, names: Sequence[str], engine: str = ENGINES[0], progress: Progress | None = None
+) -> Identified:
+    """Finds the faces of an edge list."""
+
+    def make() -> Identified:
+        native, drawing = read(text, names)
+        faces = native.identify({"engine": engine}, progress)
+        return Identified(text, Identification.parse(faces.identification(), drawing), native)
+
+    return _identified.get((text, engine), make)
+
+
+def solid(identified: Identified, options: SolidOptions, progress: Progress | None = None) -> Built:
+    """Builds the solid from the faces that are switched on."""
+
+    def make() -> Built:
+        faces = identified.native.read_faces(chosen_faces(identified.identification, options))
+        native = identified.native.solid(faces, options.native(), progress)
+        report = native.report()
+        return Built(
+            native.brep().decode("utf-8"), report["report"], report["lift"], report["plan"]
+        )
+
+    return _built.get((identified.text, identified.identification.engine, options), make)
+
+
+def chosen_faces(identification: Identification, options: SolidOptions) -> dict[str, Any]:
+    """The faces that the options leave, as the library reads them."""
+    if not 0 <= options.reading < len(identification.readings):
+        raise BadInput(
+            f"There is no reading {options.reading + 1}: this drawing has "
+            f"{len(identification.readings)}. Choose another one."
+        )
+    reading = identification.readings[options.reading]
+    off = set(options.off)
+    faces = [
+        raw for face, raw in zip(reading.faces, reading.raw, strict=True) if face.key not in off
+    ]
+    if not faces:
+        raise BadInput("All faces are switched off. Switch the faces of the solid on.")
+    return {"engine": identification.engine, "faces": faces}

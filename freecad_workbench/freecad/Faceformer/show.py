@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Brings a new object in front of the user."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import FreeCADGui
+
+from . import preferences
+
+
+def show_solid(solid: Any, links: list[Any]) -> None:
+    """Selects a new solid and turns the view so that it is seen as a solid."""
+    FreeCADGui.Selection.clearSelection()
+    FreeCADGui.Selection.addSelection(solid)
+    view = _view()
+    if view is not None and preferences.turn_view():
+        view.viewIsometric()
+        view.fitAll()
+
+
+def hide_drawings(links: list[Any]) -> None:
+    """Hides the sketches that a solid was made from whole, as FreeCAD's own pads do."""
+    if preferences.hide_source():
+        for obj, names in links:
+            if not any(names):
+                obj.ViewObject.Visibility = False
+
+
+def show_drawing(sketch: Any) -> None:
+    """Selects a new drawing and looks straight at it."""
+    FreeCADGui.Selection.clearSelection()
+    FreeCADGui.Selection.addSelection(sketch)
+    view = _view()
+    if view is not None and preferences.turn_view():
+        view.viewTop()
+        view.fitAll()
+
+
+def _view() -> Any | None:
+    document = FreeCADGui.ActiveDocument
+    view = document.ActiveView if document is not None else None
+    return view if hasattr(view, "viewIsometric") else None
