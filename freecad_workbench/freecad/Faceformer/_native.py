@@ -29,7 +29,14 @@ from ctypes import (
 from pathlib import Path
 from typing import Any
 
-from .errors import BadInput, Cancelled, Failed, InternalError, LibraryMissing
+from .errors import (
+    BadInput,
+    Cancelled,
+    FaceformerError,
+    Failed,
+    InternalError,
+    LibraryMissing,
+)
 
 ABI_VERSION = 1
 """Version of the C ABI that the declarations below follow."""
@@ -158,7 +165,7 @@ class Solid(_Handle):
     def write(self, path: str, form: str) -> None:
         """Writes the solid to a file; ``form`` is ``step``, ``brep`` or ``stl``."""
         self.library.call(
-            "faceformer_solid_write", None, self.pointer, os.fsencode(path), form.encode()
+            "faceformer_solid_write", None, self.pointer, path.encode(), form.encode()
         )
 
 
@@ -214,9 +221,18 @@ class Library:
             raise _ERRORS.get(status, Failed)(text or f"{name} failed with status {status}")
 
     def handle(self, name: str, callback: _Callback | None, *arguments) -> c_void_p:
-        """Calls a function whose last own argument receives a handle."""
+        """Calls a function whose last own argument receives a handle.
+
+        A handle that comes with an error, the part of a solid that could be built, stays on the
+        exception as ``partial``.
+        """
         pointer = c_void_p()
-        self.call(name, callback, *arguments, byref(pointer))
+        try:
+            self.call(name, callback, *arguments, byref(pointer))
+        except FaceformerError as error:
+            if pointer.value:
+                error.partial = Solid(self, pointer, self.free("solid"))
+            raise
         return pointer
 
     def text(self, name: str, *arguments) -> str:

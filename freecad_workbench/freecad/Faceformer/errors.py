@@ -5,6 +5,9 @@
 class FaceformerError(Exception):
     """Base of every error that the workbench raises on purpose."""
 
+    partial = None
+    """What could be built of a solid before the error, for inspection: it has ``brep()``."""
+
 
 class LibraryMissing(FaceformerError):
     """The native library was not found, or is not the one that this workbench needs."""

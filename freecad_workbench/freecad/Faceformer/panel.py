@@ -53,6 +53,7 @@ def _show(session: Session) -> Panel:
     if _open_panel is not None:
         _open_panel.close()
     panel = Panel(session)
+    FreeCADGui.Selection.clearSelection()
     FreeCADGui.Control.showDialog(panel)
     panel.start()
     return panel
@@ -245,6 +246,7 @@ class Panel:
         count = len(self.session.drawn.edges)
         text = translate("Faceformer", "{}: {} edges").format(self.session.source_label(), count)
         self._head.setText(text)
+        self._head.setToolTip(text)
 
     def _update_buttons(self) -> None:
         if self._ok is not None:
@@ -313,6 +315,7 @@ class Panel:
         self.form.setWindowTitle(translate("Faceformer", "Identify Faces"))
         self.form.setWindowIcon(QtGui.QIcon(icon("Faceformer_IdentifyFaces")))
         layout = QtWidgets.QVBoxLayout(self.form)
+        layout.setContentsMargins(4, 4, 4, 4)
         layout.addLayout(self._build_head())
         self._bar = QtWidgets.QProgressBar()
         self._bar.setRange(0, 100)
@@ -331,8 +334,11 @@ class Panel:
     def _build_head(self) -> QtWidgets.QHBoxLayout:
         head = QtWidgets.QHBoxLayout()
         self._head = QtWidgets.QLabel()
+        self._head.setSizePolicy(QtWidgets.QSizePolicy.Ignored, QtWidgets.QSizePolicy.Preferred)
         head.addWidget(self._head, 1)
-        button = QtWidgets.QPushButton(translate("Faceformer", "Use Selection"))
+        button = QtWidgets.QToolButton()
+        button.setObjectName("Faceformer_UseSelection")
+        button.setIcon(QtGui.QIcon(":/icons/view-refresh.svg"))
         button.setToolTip(
             translate("Faceformer", "Takes the selected lines, or reads the drawing again")
         )
@@ -343,10 +349,10 @@ class Panel:
     def _build_options(self) -> QtWidgets.QFormLayout:
         options = QtWidgets.QFormLayout()
         self._reading_label = QtWidgets.QLabel(translate("Faceformer", "Reading"))
-        self._reading = QtWidgets.QComboBox()
+        self._reading = _narrow_box()
         self._reading.currentIndexChanged.connect(self._choose_reading)
         options.addRow(self._reading_label, self._reading)
-        self._engine = QtWidgets.QComboBox()
+        self._engine = _narrow_box()
         self._engine.addItems(pipeline.ENGINES)
         self._engine.setCurrentIndex(pipeline.ENGINES.index(self.session.engine))
         self._engine.currentIndexChanged.connect(self._choose_engine)
@@ -356,7 +362,7 @@ class Panel:
         self._scale.setRange(1e-4, 1e6)
         self._scale.setValue(self.session.scale)
         options.addRow(translate("Faceformer", "Scale"), self._scale)
-        self._orientation = QtWidgets.QComboBox()
+        self._orientation = _narrow_box()
         self._orientation.addItems(
             [translate("Faceformer", "Upright"), translate("Faceformer", "As drawn")]
         )
@@ -366,3 +372,11 @@ class Panel:
         self._flip.setChecked(self.session.flip)
         options.addRow("", self._flip)
         return options
+
+
+def _narrow_box() -> QtWidgets.QComboBox:
+    """A combo box that does not make the panel wider than FreeCAD's side bar."""
+    box = QtWidgets.QComboBox()
+    box.setMinimumContentsLength(6)
+    box.setSizeAdjustPolicy(QtWidgets.QComboBox.AdjustToMinimumContentsLengthWithIcon)
+    return box

@@ -32,6 +32,8 @@ class FaceList(QtWidgets.QTreeWidget):
         self.setRootIsDecorated(False)
         self.setAlternatingRowColors(True)
         self.setUniformRowHeights(True)
+        self.setIndentation(0)
+        self.setHorizontalScrollBarPolicy(QtCore.Qt.ScrollBarAlwaysOff)
         self.setHeaderLabels(
             [
                 translate("Faceformer", "Face"),
@@ -40,7 +42,7 @@ class FaceList(QtWidgets.QTreeWidget):
                 translate("Faceformer", "Confidence"),
             ]
         )
-        self.setMinimumHeight(220)
+        self.setMinimumSize(120, 220)
         self.itemSelectionChanged.connect(self._selection_changed)
         self.itemChanged.connect(self._item_changed)
 
@@ -50,7 +52,7 @@ class FaceList(QtWidgets.QTreeWidget):
         self.clear()
         for number, face in enumerate(faces):
             self.addTopLevelItem(self._row(number, face, face.key not in off))
-        for column in range(self.columnCount()):
+        for column in range(self.columnCount() - 1):
             self.resizeColumnToContents(column)
         self.blockSignals(False)
 

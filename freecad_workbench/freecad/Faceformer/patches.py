@@ -32,7 +32,9 @@ class Patches:
         self._root.addChild(_flat_light())
         self._faces_root = coin.SoSeparator()
         self._marks = coin.SoSeparator()
+        self._lines = coin.SoSeparator()
         self._root.addChild(self._faces_root)
+        self._root.addChild(self._lines)
         self._root.addChild(self._marks)
         self._switches: list[coin.SoSwitch] = []
         self._materials: list[coin.SoMaterial] = []
@@ -43,6 +45,7 @@ class Patches:
     def show(self, drawing: Drawing, faces: Sequence[Face]) -> None:
         """Shows these faces in the place of those before, large ones behind small ones."""
         self._faces_root.removeAllChildren()
+        self._lines.removeAllChildren()
         self._marks.removeAllChildren()
         self._size = _size(drawing.vertices) or 1.0
         outlines = [face.outline(drawing) for face in faces]
@@ -53,6 +56,7 @@ class Patches:
             self._add(k, outline, height[k])
         for k in order:
             self._faces_root.addChild(self._switches[k])
+        self._add_lines(drawing)
 
     def set_visible(self, number: int, visible: bool) -> None:
         """Shows or hides the patch of a face, counted from 0."""
@@ -95,6 +99,16 @@ class Patches:
         if self._graph is not None:
             self._graph.removeChild(self._root)
             self._graph = None
+
+    def _add_lines(self, drawing: Drawing) -> None:
+        """The drawing's own lines, dark: sketch lines may be white on a white background."""
+        self._lines.addChild(_material(colours.EDGE, 0.0))
+        style = coin.SoDrawStyle()
+        style.lineWidth = 2
+        self._lines.addChild(style)
+        height = (len(self._switches) + 1) * LIFT * self._size
+        for edge in drawing.edges:
+            _add_polyline(self._lines, edge.points, height, closed=False)
 
     def _add(self, number: int, outline: list[list[Point]], height: float) -> None:
         switch = coin.SoSwitch()
