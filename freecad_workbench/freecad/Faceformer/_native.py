@@ -44,6 +44,9 @@ ABI_VERSION = 1
 ENVIRONMENT = "FACEFORMER_LIBRARY"
 """Environment variable with the library's path, or the path of the folder that holds it."""
 
+NATIVE = Path(__file__).resolve().parent / "native"
+"""Folder of the libraries that come with the workbench, one folder a platform."""
+
 Progress = Callable[[str, float], bool]
 """Hears the name of the stage and the share done, 0 to 1; returns False to cancel."""
 
@@ -91,7 +94,7 @@ def candidates() -> list[Path]:
     if chosen:
         path = Path(chosen).expanduser()
         found.append(path / name if path.is_dir() else path)
-    found.append(Path(__file__).resolve().parent / "native" / platform_folder() / name)
+    found.append(NATIVE / platform_folder() / name)
     return found
 
 
@@ -269,11 +272,12 @@ def library() -> Library:
     global _loaded
     with _lock:
         if _loaded is None:
-            _loaded = _load()
+            _loaded = load()
         return _loaded
 
 
-def _load() -> Library:
+def load() -> Library:
+    """Loads the first library that fits. Use `library`, which does so once."""
     tried = []
     for path in candidates():
         if not path.is_file():

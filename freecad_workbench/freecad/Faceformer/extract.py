@@ -198,7 +198,14 @@ def _parents_placement(thing: Any) -> FreeCAD.Placement:
 
 
 def sample(edge: Part.Edge) -> list[FreeCAD.Vector]:
-    """Points on the curve of an edge, evenly spaced in its parameter, both ends included."""
+    """Points on the curve of an edge, both ends included; the ends of a closed one are equal."""
+    points = _sample(edge)
+    if edge.isClosed():
+        points[-1] = points[0]
+    return points
+
+
+def _sample(edge: Part.Edge) -> list[FreeCAD.Vector]:
     first, last = edge.ParameterRange
     curve = edge.Curve
     if isinstance(curve, (Part.Line, Part.LineSegment)):

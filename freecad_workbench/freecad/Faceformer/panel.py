@@ -122,10 +122,9 @@ class Panel:
         if self.session.outcome.identified is None:
             return False
         self._read_options()
-        links = self.session.links
         try:
             run(self.session.build())
-            solid = self.session.convert()
+            self.session.convert()
         except FaceformerError as error:
             if not is_cancelled(error):
                 self._show_messages(error)
@@ -133,7 +132,7 @@ class Panel:
         new = self.session.target is None
         self.close()
         if new:
-            show_solid(solid, links)
+            show_solid()
         return True
 
     def reject(self) -> bool:

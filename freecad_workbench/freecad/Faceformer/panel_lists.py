@@ -70,7 +70,7 @@ class FaceList(QtWidgets.QTreeWidget):
                 str(face.number),
                 translate("Faceformer", KIND_NAMES.get(face.kind, face.kind)),
                 str(len(face.edge_indices)),
-                f"{100 * face.confidence:.0f} %",
+                f"{100 * face.confidence:.0f}\u00a0%",
             ]
         )
         item.setFlags(item.flags() | QtCore.Qt.ItemIsUserCheckable)

@@ -72,8 +72,8 @@ class Built:
         return tuple(self.plan.get("notices", [])) + conflicts
 
 
-class _Store:
-    """The most recent results; safe for threads."""
+class Store:
+    """The results that were used last; safe for threads."""
 
     def __init__(self, size: int):
         self._size = size
@@ -81,6 +81,7 @@ class _Store:
         self._items: OrderedDict[Any, Any] = OrderedDict()
 
     def get(self, key: Any, make: Callable[[], Result]) -> Result:
+        """The result under a key, made now if it is not there."""
         with self._lock:
             if key in self._items:
                 self._items.move_to_end(key)
@@ -93,8 +94,8 @@ class _Store:
         return made
 
 
-_identified = _Store(8)
-_built = _Store(8)
+_identified = Store(8)
+_built = Store(8)
 
 
 def read(text: str, names: Sequence[str]) -> tuple[_native.Drawing, Drawing]:

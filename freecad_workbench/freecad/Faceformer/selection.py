@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from typing import Any
 
+import FreeCAD
 import FreeCADGui
 
 from .feature import is_solid
@@ -54,6 +55,14 @@ def own_solids() -> list[Any]:
     """The selected solids of this workbench; empty if anything else is selected too."""
     objects = [entry.Object for entry in FreeCADGui.Selection.getSelectionEx()]
     return objects if all(is_solid(obj) for obj in objects) else []
+
+
+def solids_to_flip() -> list[Any]:
+    """The selected solids of this workbench, or the only one of the document if nothing is."""
+    if FreeCADGui.Selection.getSelectionEx() or FreeCAD.ActiveDocument is None:
+        return own_solids()
+    solids = [obj for obj in FreeCAD.ActiveDocument.Objects if is_solid(obj)]
+    return solids if len(solids) == 1 else []
 
 
 class DrawingGate:

@@ -10,10 +10,9 @@ import FreeCADGui
 from . import preferences
 
 
-def show_solid(solid: Any, links: list[Any]) -> None:
-    """Selects a new solid and turns the view so that it is seen as a solid."""
+def show_solid() -> None:
+    """Turns the view so that a new solid is seen as one, with nothing selected in front of it."""
     FreeCADGui.Selection.clearSelection()
-    FreeCADGui.Selection.addSelection(solid)
     view = _view()
     if view is not None and preferences.turn_view():
         view.viewIsometric()

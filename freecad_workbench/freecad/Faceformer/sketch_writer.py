@@ -55,7 +55,7 @@ def piece(edge: Part.Edge) -> Any:
     if isinstance(curve, (Part.Line, Part.LineSegment)):
         return Part.LineSegment(edge.valueAt(first), edge.valueAt(last))
     if isinstance(curve, (Part.Circle, Part.Ellipse)):
-        return _arc(_ellipse_of(edge))
+        return arc(_ellipse_of(edge))
     return curve.toBSpline(first, last)
 
 
@@ -83,13 +83,14 @@ def _geometry(edge: Edge) -> Any:
     if edge.straight:
         return Part.LineSegment(points[0], points[-1])
     if edge.ellipse is not None:
-        return _arc(edge.ellipse)
+        return arc(edge.ellipse)
     curve = Part.BSplineCurve()
     curve.interpolate(points)
     return curve
 
 
-def _arc(ellipse: Ellipse) -> Any:
+def arc(ellipse: Ellipse) -> Any:
+    """A circle, an ellipse, or an arc of one, as a sketch holds it."""
     center = FreeCAD.Vector(*ellipse.center)
     major = FreeCAD.Vector(*ellipse.major)
     start, end = ellipse.start, ellipse.start + ellipse.sweep

@@ -34,11 +34,12 @@ def camera(direction: Any) -> FreeCAD.Rotation:
     Raises `BadInput` for a direction without length.
     """
     try:
-        z = FreeCAD.Vector(*direction)
+        x, y, z = (float(value) for value in direction)
     except (TypeError, ValueError) as error:
         raise BadInput(
             translate("Faceformer", "A direction is three numbers, for instance (1, -1, 1).")
         ) from error
+    z = FreeCAD.Vector(x, y, z)
     if not (math.isfinite(z.Length) and z.Length > 1e-12):
         raise BadInput(
             translate("Faceformer", "The direction has no length. Give one such as (1, -1, 1).")

@@ -41,17 +41,16 @@ class ConvertToSolid:
         if current is not None:
             current.accept()
             return
-        links = selection.drawing_links()
-        session = Session(links)
+        session = Session(selection.drawing_links())
         try:
             session.extract()
             session.outcome = run(session.work())
             if session.outcome.error is not None:
                 raise session.outcome.error
             run(session.build())
-            solid = session.convert()
+            session.convert()
         except FaceformerError as error:
             if not is_cancelled(error):
                 show_error(error)
             return
-        show_solid(solid, links)
+        show_solid()

@@ -13,7 +13,7 @@ from ..transaction import transaction
 
 
 class FlipDepth:
-    """Turns near into far for the selected solids."""
+    """Turns near into far."""
 
     def GetResources(self) -> dict[str, Any]:
         """Texts and icon."""
@@ -27,12 +27,12 @@ class FlipDepth:
         }
 
     def IsActive(self) -> bool:
-        """Only solids of this workbench must be selected."""
-        return bool(selection.own_solids())
+        """Solids of this workbench must be selected, or the document has just one."""
+        return bool(selection.solids_to_flip())
 
     def Activated(self, _index: int = 0) -> None:
         """Runs the command."""
-        solids = selection.own_solids()
+        solids = selection.solids_to_flip()
         document = solids[0].Document
         try:
             with transaction(document, translate("Faceformer", "Flip Depth")):

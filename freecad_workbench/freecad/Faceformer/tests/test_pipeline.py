@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+import unittest
+
+from ..errors import BadInput
+from ..model import Drawing, Identification
+from ..pipeline import SolidOptions, Store, chosen_faces
+from .test_model import NAMES, REPORT
+
+TWO = [{"type": "plane", "loops": [[1, 2, -3]]}, {"type": "cylinder", "loops": [[1, -1]]}]
+
+
+class PipelineTest(unittest.TestCase):
+    def setUp(self):
+        data = {"engine": "varley", "faces": TWO, "alternatives": [{"faces": TWO[:1]}]}
+        self.identification = Identification.parse(data, Drawing.parse(REPORT, NAMES))
+
+    def test_faces_that_are_switched_off_are_left_out(self):
+        off = (self.identification.faces[0].key,)
+        chosen = chosen_faces(self.identification, SolidOptions(off=off))
+        self.assertEqual(chosen, {"engine": "varley", "faces": TWO[1:]})
+
+    def test_a_reading_is_chosen_by_its_number(self):
+        chosen = chosen_faces(self.identification, SolidOptions(reading=1))
+        self.assertEqual(chosen["faces"], TWO[:1])
+
+    def test_a_reading_that_is_not_there_is_refused(self):
+        with self.assertRaisesRegex(BadInput, "no reading 3.*has 2"):
+            chosen_faces(self.identification, SolidOptions(reading=2))
+
+    def test_a_solid_without_faces_is_refused(self):
+        off = tuple(face.key for face in self.identification.faces)
+        with self.assertRaisesRegex(BadInput, "switched off"):
+            chosen_faces(self.identification, SolidOptions(off=off))
+
+    def test_the_store_forgets_what_was_used_longest_ago(self):
+        store, made = Store(2), []
+
+        def get(key):
+            return store.get(key, lambda: made.append(key) or key)
+
+        for key in ("a", "b", "a", "c", "a", "b"):
+            self.assertEqual(get(key), key)
+        self.assertEqual(made, ["a", "b", "c", "b"])
+
+    def test_the_store_keeps_nothing_of_work_that_failed(self):
+        store = Store(2)
+        with self.assertRaises(ZeroDivisionError):
+            store.get("a", lambda: 1 // 0)
+        self.assertEqual(store.get("a", lambda: 5), 5)

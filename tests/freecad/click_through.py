@@ -1,0 +1,163 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The two clicks in FreeCAD's window: Identify Faces, Convert to Solid. Run under Xvfb."""
+
+import FreeCAD
+import FreeCADGui
+import Part
+from freecad.Faceformer import api, panel
+from freecad.Faceformer.qt import QtCore, QtWidgets
+from harness import check, run
+from mouse import click, click_3d, click_item, screenshot, tool_button, wait, wait_until
+
+V = FreeCAD.Vector
+NAMES = ("IdentifyFaces", "ConvertToSolid", "FlipDepth", "WireframeFromSolid")
+FACES = 12
+"""Faces of the part, with each half of a hole's cylinder counted."""
+
+
+def part():
+    """A bracket with a hole."""
+    body = Part.makeBox(50, 36, 10).fuse(Part.makeBox(10, 36, 34)).removeSplitter()
+    return body.cut(Part.makeCylinder(8, 40, V(31, 18, -10)))
+
+
+def buttons(window):
+    """Which of the workbench's buttons are on, by the names of their commands."""
+    return {name for name in NAMES if tool_button(window, f"Faceformer_{name}").isEnabled()}
+
+
+def select(document, *links):
+    """Selects objects, or (object, edge) pairs, as a click in the tree does."""
+    FreeCADGui.Selection.clearSelection()
+    for link in links:
+        obj, names = link if isinstance(link, tuple) else (link, ())
+        FreeCADGui.Selection.addSelection(document.Name, obj.Name, *names)
+
+
+def test_buttons(window, document, sketch, solid):
+    """Buttons are on for what they can work on, and grey otherwise."""
+    cases = (
+        ("nothing", (), set()),
+        ("a sketch", (sketch,), {"IdentifyFaces", "ConvertToSolid"}),
+        ("an edge", ((sketch, ("Edge1",)),), {"IdentifyFaces", "ConvertToSolid"}),
+        ("a face", ((solid, ("Face1",)),), {"WireframeFromSolid"}),
+        ("a sketch and a solid", (sketch, solid), set()),
+    )
+    for what, links, expected in cases:
+        select(document, *links)
+        on = wait_until(lambda e=expected: buttons(window) == e, 3000)
+        check(on, f"with {what} selected: {sorted(buttons(window))}")
+
+
+def test_picking(window, view, document, sketch):
+    """Edges are picked in the 3D view with the mouse."""
+    FreeCADGui.Selection.clearSelection()
+    for name, keys in (("Edge1", QtCore.Qt.NoModifier), ("Edge5", QtCore.Qt.ControlModifier)):
+        edge = sketch.Shape.getElement(name)
+        first, last = edge.ParameterRange
+        click_3d(window, view, edge.valueAt(first + 0.37 * (last - first)), keys)
+    picked = [n for entry in FreeCADGui.Selection.getSelectionEx() for n in entry.SubElementNames]
+    check(picked == ["Edge1", "Edge5"], f"picked with the mouse: {picked}")
+
+
+def test_identify(window, document, sketch):
+    """The first click: patches and the panel."""
+    select(document, sketch)
+    wait_until(lambda: "IdentifyFaces" in buttons(window), 3000)
+    screenshot("selected")
+    undo = document.UndoCount
+    click(tool_button(window, "Faceformer_IdentifyFaces"))
+    found = wait_until(lambda: panel.current() is not None and not panel.current().busy())
+    check(found, "the panel is open and has finished")
+    wait(700)
+    screenshot("faces")
+    faces = window.findChild(QtWidgets.QTreeWidget, "Faceformer_Faces")
+    check(faces.topLevelItemCount() == FACES, f"{faces.topLevelItemCount()} faces in the list")
+    check(document.UndoCount == undo, "looking for faces changes nothing")
+    click_item(faces, 2, 1)
+    check(bool(faces.selectedItems()), "a click picks a row")
+    wait(400)
+    screenshot("picked")
+    faces.clearSelection()
+
+
+def test_convert(window, document):
+    """The second click: a solid, and one undo step that takes it away."""
+    objects = len(document.Objects)
+    wait_until(lambda: "ConvertToSolid" in buttons(window), 3000)
+    click(tool_button(window, "Faceformer_ConvertToSolid"))
+    made = wait_until(lambda: len(document.Objects) == objects + 1, 5000)
+    check(made, "the click makes one object")
+    check(panel.current() is None, "the panel is closed")
+    solid = document.Objects[-1]
+    check(solid.isValid() and solid.Shape.isValid(), "the solid is valid")
+    share = abs(solid.Shape.Volume / part().Volume - 1)
+    check(share < 1e-3, f"its volume is right, off by {share:.2e}")
+    wait(900)
+    screenshot("solid")
+
+    wait_until(lambda: "FlipDepth" in buttons(window), 3000)
+    click(tool_button(window, "Faceformer_FlipDepth"))
+    check(solid.Flip and solid.isValid(), "flip depth works on the only solid")
+    wait(600)
+    screenshot("flipped")
+    document.undo()
+    check(not solid.Flip, "one undo flips it back")
+
+    FreeCADGui.ActiveDocument.setEdit(solid.Name)
+    opened = wait_until(lambda: panel.current() is not None and not panel.current().busy())
+    check(opened and panel.current().session.target is solid, "editing opens the panel")
+    panel.current().reject()
+    check(panel.current() is None, "and closing it ends the editing")
+
+    document.undo()
+    check(len(document.Objects) == objects, "one undo removes the solid")
+    document.redo()
+    check(len(document.Objects) == objects + 1, "one redo brings it back")
+
+
+def test_messages(window, document, sketch):
+    """What is wrong in a drawing is said in the panel, and nothing is changed."""
+    broken = document.copyObject(sketch)
+    broken.Label = "Open Wireframe"
+    broken.delGeometry(3)
+    document.recompute()
+    select(document, broken)
+    wait_until(lambda: "IdentifyFaces" in buttons(window), 3000)
+    objects = len(document.Objects)
+    click(tool_button(window, "Faceformer_IdentifyFaces"))
+    wait_until(lambda: panel.current() is not None and not panel.current().busy())
+    messages = window.findChild(QtWidgets.QListWidget, "Faceformer_Messages")
+    check(messages.count() > 0, f"{messages.count()} messages on an open drawing")
+    if messages.count():
+        item = messages.item(messages.count() - 1)
+        click(messages.viewport(), messages.visualItemRect(item).center())
+    wait(500)
+    screenshot("messages")
+    check(not panel.current().accept(), "it cannot be converted")
+    panel.current().reject()
+    check(len(document.Objects) == objects, "and the document is as it was")
+
+
+def main():
+    window = FreeCADGui.getMainWindow()
+    window.setGeometry(0, 0, 1280, 800)
+    FreeCADGui.activateWorkbench("FaceformerWorkbench")
+    document = FreeCAD.newDocument("Bracket")
+    solid = document.addObject("Part::Feature", "Bracket")
+    solid.Shape = part()
+    sketch = api.wireframe(solid, (1.0, -1.3, 0.8))
+    solid.ViewObject.Visibility = False
+    document.recompute()
+    view = FreeCADGui.ActiveDocument.ActiveView
+    view.viewTop()
+    view.fitAll()
+    wait(1200)
+    test_buttons(window, document, sketch, solid)
+    test_picking(window, view, document, sketch)
+    test_identify(window, document, sketch)
+    test_convert(window, document)
+    test_messages(window, document, sketch)
+
+
+QtCore.QTimer.singleShot(1500, lambda: run(main))
