@@ -1,5 +1,6 @@
 //! Lifting: from a drawing with faces to depth.
 
+pub mod directions;
 mod error;
 mod model;
 pub mod system;

@@ -188,8 +188,8 @@ impl<T> System<T> {
 
     fn check(&self) -> Result<(), LiftError> {
         let bad = self.rows.iter().position(|row| {
-            !row.rhs.is_finite()
-                || !(row.weight.is_finite() && row.weight >= 0.0)
+            let sound = row.rhs.is_finite() && row.weight.is_finite() && row.weight >= 0.0;
+            !sound
                 || row
                     .terms
                     .iter()

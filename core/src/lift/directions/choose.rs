@@ -1,0 +1,228 @@
+//! Which of the frames that the evidence allows.
+
+use glam::{DMat3, DVec3};
+
+use super::evidence::{CircleGroup, Evidence};
+use super::hypotheses::{Hypothesis, frames};
+use super::refine::{Followers, refine};
+use super::{AGREE, Axis, Directions, columns, towards_viewer};
+use crate::drawing::Drawing;
+use crate::lift::LiftError;
+
+/// Standard errors of coordinates that are tried, in units of the drawing's size: rounded to 1e-6,
+/// to fewer digits, drawn by hand.
+const PRECISIONS: [f64; 4] = [6e-7, 1e-5, 1e-4, 1e-3];
+
+/// Chance agreement is told from a match by how much smaller than this share of the size the error
+/// is.
+const CHANCE: f64 = 0.1;
+
+/// Standard error of the axes, radians, beyond which depth cannot be told.
+const MAX_ERROR: f64 = 0.01;
+
+/// Readings that are worth a second look when the first one leads to conflicts.
+const READINGS: usize = 4;
+
+/// A reading of the evidence.
+struct Reading {
+    directions: Directions,
+    /// Straight edges and circles explained, in votes.
+    votes: f64,
+    /// How much it looks like the axes of a part.
+    score: f64,
+}
+
+pub(super) fn candidates(drawing: &Drawing) -> Result<Vec<Directions>, LiftError> {
+    let size = drawing.size();
+    let mut best: Option<(f64, Vec<Reading>)> = None;
+    for relative in PRECISIONS {
+        let worth = (CHANCE / relative).ln();
+        let evidence = Evidence::new(drawing, relative * size);
+        let all = evidence.segments.len() as f64
+            + evidence
+                .circles
+                .iter()
+                .map(|c| 2.0 * c.edges.len() as f64)
+                .sum::<f64>();
+        // Coarser precision is worth less a vote and can win by explaining more only.
+        if best.as_ref().is_some_and(|(bits, _)| *bits >= all * worth) {
+            break;
+        }
+        let readings = readings(&evidence);
+        let bits = readings.first().map_or(0.0, |r| r.votes * worth);
+        if bits > best.as_ref().map_or(0.0, |b| b.0) {
+            best = Some((bits, readings));
+        }
+    }
+    let Some((_, readings)) = best else {
+        return Err(refusal(drawing, size));
+    };
+    let good: Vec<Directions> = readings
+        .iter()
+        .filter(|r| r.directions.error < MAX_ERROR)
+        .take(READINGS)
+        .map(|r| r.directions.clone().seen_from_above())
+        .collect();
+    if good.is_empty() {
+        let flattest = readings
+            .iter()
+            .flat_map(|r| &r.directions.axes)
+            .map(|a| a.direction.z.abs().asin())
+            .fold(f64::INFINITY, f64::min);
+        return Err(LiftError::DegenerateView {
+            degrees: flattest.to_degrees(),
+        });
+    }
+    Ok(good)
+}
+
+/// Why nothing was found: a view along an axis shows two directions at right angles and no more.
+fn refusal(drawing: &Drawing, size: f64) -> LiftError {
+    let evidence = Evidence::new(drawing, PRECISIONS[2] * size);
+    if let [a, b, ..] = &evidence.clusters[..] {
+        let skew = a.direction.dot(b.direction).abs();
+        if skew < 0.01 && a.members.len() > 1 && b.members.len() > 1 {
+            return LiftError::DegenerateView {
+                degrees: skew.asin().to_degrees(),
+            };
+        }
+    }
+    LiftError::NoDirections(format!(
+        "{} straight edges in {} directions and {} circles fit no axes; add edges along three axes at \
+         right angles, or a circle",
+        evidence.segments.len(),
+        evidence.clusters.len(),
+        evidence
+            .circles
+            .iter()
+            .map(|c| c.edges.len())
+            .sum::<usize>(),
+    ))
+}
+
+/// All readings, most likely first.
+fn readings(evidence: &Evidence) -> Vec<Reading> {
+    let mut seen: Vec<DMat3> = Vec::new();
+    let mut all: Vec<Reading> = Vec::new();
+    for start in frames(evidence) {
+        let Some((found, followers)) = refine(evidence, start) else {
+            continue;
+        };
+        if seen
+            .iter()
+            .any(|f| is_same(f, &found.frame, 5.0 * found.error))
+        {
+            continue;
+        }
+        seen.push(found.frame);
+        all.extend(frame_reading(evidence, &found, &followers));
+    }
+    all.extend(
+        evidence
+            .circles
+            .iter()
+            .filter_map(|c| axis_reading(evidence, c)),
+    );
+    all.sort_by(|a, b| b.score.total_cmp(&a.score));
+    all
+}
+
+/// A frame needs a follower of each axis; two of the axes might be held by one of them otherwise.
+fn frame_reading(
+    evidence: &Evidence,
+    found: &Hypothesis,
+    followers: &Followers,
+) -> Option<Reading> {
+    let mut axes = columns(&found.frame).map(|direction| Axis {
+        direction: towards_viewer(direction),
+        edges: Vec::new(),
+        circles: Vec::new(),
+    });
+    let (mut score, mut votes) = (0.0, 0.0);
+    for (cluster, k) in evidence.clusters.iter().zip(&followers.clusters) {
+        let Some(axis) = k.map(|k| &mut axes[k]) else {
+            continue;
+        };
+        for segment in cluster
+            .members
+            .iter()
+            .filter_map(|&m| evidence.segments.get(m))
+        {
+            axis.edges.push(segment.edge);
+            score += (segment.length / evidence.size).sqrt();
+            votes += 1.0;
+        }
+    }
+    for (group, k) in evidence.circles.iter().zip(&followers.circles) {
+        let Some(axis) = k.map(|k| &mut axes[k]) else {
+            continue;
+        };
+        axis.circles.extend(&group.edges);
+        score += group.edges.len() as f64;
+        votes += 2.0 * group.edges.len() as f64;
+    }
+    let complete = axes
+        .iter()
+        .all(|a| !(a.edges.is_empty() && a.circles.is_empty()));
+    complete.then(|| Reading {
+        directions: Directions {
+            axes: axes.into(),
+            error: found.error,
+            precision: evidence.precision,
+        },
+        votes: votes - 3.0,
+        score,
+    })
+}
+
+/// The axis of a group of circles, from the circles and the straight edges along it.
+fn axis_reading(evidence: &Evidence, group: &CircleGroup) -> Option<Reading> {
+    let normal = group.normal();
+    let slant = normal.truncate().length();
+    let error = group.error / slant.min(normal.z).max(1e-6);
+    let drawn = normal.truncate() / slant;
+    let along = evidence.clusters.iter().find(|c| {
+        c.direction.perp_dot(drawn).abs() < AGREE * (error + c.error(evidence.precision))
+    });
+    let direction = match along {
+        Some(c) if c.error(evidence.precision) < error => {
+            let xy = c.direction * c.direction.dot(drawn).signum() * slant;
+            DVec3::new(xy.x, xy.y, normal.z)
+        }
+        _ => normal,
+    };
+    let edges: Vec<usize> = along.map_or_else(Vec::new, |c| {
+        let members = c.members.iter().filter_map(|&m| evidence.segments.get(m));
+        members.map(|s| s.edge).collect()
+    });
+    let score = group.edges.len() as f64
+        + along.map_or(0.0, |c| {
+            let members = c.members.iter().filter_map(|&m| evidence.segments.get(m));
+            members.map(|s| (s.length / evidence.size).sqrt()).sum()
+        });
+    let votes = (2 * group.edges.len() + edges.len()) as f64 - 2.0;
+    Some(Reading {
+        directions: Directions {
+            axes: vec![Axis {
+                direction,
+                edges,
+                circles: group.edges.clone(),
+            }],
+            error,
+            precision: evidence.precision,
+        },
+        votes,
+        score,
+    })
+    .filter(|r| r.votes > 0.0)
+}
+
+/// Whether two frames have the same axes, as they are or reversed in depth.
+fn is_same(a: &DMat3, b: &DMat3, tolerance: f64) -> bool {
+    [1.0, -1.0].iter().any(|&sign| {
+        columns(b).iter().all(|v| {
+            let v = DVec3::new(v.x, v.y, sign * v.z);
+            columns(a).iter().any(|u| u.cross(v).length() < tolerance)
+        })
+    })
+}
