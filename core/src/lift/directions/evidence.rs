@@ -7,8 +7,8 @@ use crate::drawing::{Curve2, Drawing, EllipseArc};
 /// Standard errors within which a measurement agrees with a prediction.
 pub(crate) const AGREE: f64 = 4.0;
 
-/// Arcs shorter than this (radians of the ellipse's parameter) say nothing of its shape.
-const MIN_SWEEP: f64 = 0.7;
+/// Arcs that are too short have axes less certain than this and are left out.
+const UNCERTAIN: f64 = 0.01;
 
 /// Circles seen from straight above, or outlines of spheres: their axis is the view's.
 const FACE_ON: f64 = 1.0 - 1e-4;
@@ -170,12 +170,10 @@ fn cluster(segments: &[Segment], precision: f64) -> Vec<Cluster> {
     clusters
 }
 
-/// Standard error of the entries of an arc's shape matrix. A whole ellipse is known as well as its
-/// points; the error of a short arc grows with the cube of what is missing, because its points
-/// differ from those of other conics only in the third order.
+/// Standard error of the entries of an arc's shape matrix: that of its axes, and not below what the
+/// drawing's precision leaves.
 fn shape_error(arc: &EllipseArc, precision: f64) -> f64 {
-    let missing = (std::f64::consts::PI / arc.sweep.abs()).max(1.0);
-    4.0 * precision.max(arc.residual) / arc.major.length() * missing.powi(3)
+    2.0 * arc.uncertainty + 2.0 * precision / arc.major.length()
 }
 
 fn circles(drawing: &Drawing, precision: f64) -> Vec<CircleGroup> {
@@ -185,7 +183,8 @@ fn circles(drawing: &Drawing, precision: f64) -> Vec<CircleGroup> {
         .enumerate()
         .filter_map(|(edge, e)| match e.curve {
             Curve2::Ellipse(arc)
-                if arc.sweep.abs() > MIN_SWEEP
+                if arc.uncertainty < UNCERTAIN
+                    && arc.residual < AGREE * precision
                     && arc.ratio < FACE_ON
                     && arc.ratio * arc.major.length() > 20.0 * precision =>
             {

@@ -35,6 +35,7 @@ fn drawing(turn: DQuat, lines: &[[DVec3; 2]], circles: &[(DVec3, DVec3, f64)]) -
                 start,
                 sweep: std::f64::consts::PI,
                 residual: 0.0,
+                uncertainty: 0.0,
             };
             let points: Vec<DVec2> = (0..=12)
                 .map(|i| arc.point(start + std::f64::consts::PI * f64::from(i) / 12.0))
