@@ -1,0 +1,70 @@
+//! Why a call did not succeed, and the status that says so.
+
+use faceformer::identify::IdentifyError;
+
+use crate::FaceformerStatus;
+
+/// Why a call did not succeed.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum CallError {
+    /// A pointer that is needed is null.
+    #[error("the argument {0} is null")]
+    Null(&'static str),
+    /// An input is longer than the library reads.
+    #[error("the argument {what} has {len} bytes, more than the limit of {limit}")]
+    TooLong {
+        /// Argument.
+        what: &'static str,
+        /// Its length, bytes.
+        len: usize,
+        /// Most bytes that are read.
+        limit: usize,
+    },
+    /// An input is no UTF-8.
+    #[error("the argument {what} is not UTF-8 from byte {at} on")]
+    Utf8 {
+        /// Argument.
+        what: &'static str,
+        /// First byte that is wrong, from 0.
+        at: usize,
+    },
+    /// The options are not of the documented form.
+    #[error("the options are not understood: {0}")]
+    Options(#[source] serde_json::Error),
+    /// The scale makes no model.
+    #[error("the option scale is {0}; give a number above 0")]
+    Scale(f64),
+    /// A faces handle was used with a drawing that it does not belong to.
+    #[error("the faces belong to another drawing; identify or read them with this one")]
+    OtherDrawing,
+    /// A result cannot be written as JSON.
+    #[error("the result cannot be written as JSON: {0}")]
+    Json(#[source] serde_json::Error),
+    /// A stage before the CAD kernel failed.
+    #[error(transparent)]
+    Stage(#[from] faceformer::Error),
+    /// The CAD kernel failed.
+    #[error(transparent)]
+    Kernel(#[from] faceformer_occt::OcctError),
+}
+
+impl CallError {
+    /// The status that tells the caller which kind of error this is.
+    pub(crate) fn status(&self) -> FaceformerStatus {
+        use faceformer::Error as Stage;
+        match self {
+            Self::Stage(Stage::Cancelled) => FaceformerStatus::Cancelled,
+            Self::Stage(
+                Stage::Drawing(_)
+                | Stage::Identify(IdentifyError::Mismatch { .. } | IdentifyError::UnknownEngine(_)),
+            ) => FaceformerStatus::BadInput,
+            Self::Stage(_) | Self::Kernel(_) | Self::Json(_) => FaceformerStatus::Failed,
+            Self::Null(_)
+            | Self::TooLong { .. }
+            | Self::Utf8 { .. }
+            | Self::Options(_)
+            | Self::Scale(_)
+            | Self::OtherDrawing => FaceformerStatus::BadInput,
+        }
+    }
+}
