@@ -1,5 +1,7 @@
 //! Linker arguments of the shared library: what it exports, and under which name it is loaded.
 
+// Public in the library, and nobody sees it here.
+#[allow(unreachable_pub)]
 #[path = "src/version.rs"]
 mod version;
 

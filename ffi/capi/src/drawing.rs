@@ -128,13 +128,25 @@ mod tests {
         let drawing = Drawing::read(testing::box_edge_list(2).as_bytes()).unwrap();
         let report = drawing.report();
         let findings = report["findings"].as_array().unwrap();
-        assert!(findings.iter().any(|f| f["severity"] == "error"), "{findings:?}");
+        assert!(
+            findings.iter().any(|f| f["severity"] == "error"),
+            "{findings:?}"
+        );
     }
 
     #[test]
     fn what_is_no_drawing_is_bad_input() {
         let nan = testing::box_edge_list(12).replacen("[[0.0", "[[NaN", 1);
-        for json in ["", "garbage", "{}", "[]", "{\"edges\":[]}", "null", &nan, "\u{feff}"] {
+        for json in [
+            "",
+            "garbage",
+            "{}",
+            "[]",
+            "{\"edges\":[]}",
+            "null",
+            &nan,
+            "\u{feff}",
+        ] {
             let (status, message) = Drawing::read(json.as_bytes()).unwrap_err();
             assert_eq!(status, FaceformerStatus::BadInput, "{json}: {message}");
             assert!(!message.is_empty());

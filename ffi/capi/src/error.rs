@@ -43,9 +43,9 @@ pub(crate) enum CallError {
     /// A stage before the CAD kernel failed.
     #[error(transparent)]
     Stage(#[from] faceformer::Error),
-    /// The CAD kernel failed.
-    #[error(transparent)]
-    Kernel(#[from] faceformer_occt::OcctError),
+    /// This build has no CAD kernel.
+    #[error("this build of the library cannot make solids")]
+    NoKernel,
 }
 
 impl CallError {
@@ -56,9 +56,13 @@ impl CallError {
             Self::Stage(Stage::Cancelled) => FaceformerStatus::Cancelled,
             Self::Stage(
                 Stage::Drawing(_)
-                | Stage::Identify(IdentifyError::Mismatch { .. } | IdentifyError::UnknownEngine(_)),
+                | Stage::Identify(
+                    IdentifyError::Format(_)
+                    | IdentifyError::Mismatch { .. }
+                    | IdentifyError::UnknownEngine(_),
+                ),
             ) => FaceformerStatus::BadInput,
-            Self::Stage(_) | Self::Kernel(_) | Self::Json(_) => FaceformerStatus::Failed,
+            Self::Stage(_) | Self::NoKernel | Self::Json(_) => FaceformerStatus::Failed,
             Self::Null(_)
             | Self::TooLong { .. }
             | Self::Utf8 { .. }

@@ -8,12 +8,12 @@ use faceformer::identify::{self, EngineKind, Identification};
 use faceformer::{Error, Progress};
 use serde::Deserialize;
 
+use crate::FaceformerStatus;
 use crate::drawing::FaceformerDrawing;
 use crate::guard::{Out, guard};
 use crate::input;
 use crate::memory::{free_handle, new_json};
 use crate::progress::{FaceformerProgress, Watcher};
-use crate::FaceformerStatus;
 
 /// Faces of one drawing.
 ///
@@ -25,7 +25,10 @@ pub struct FaceformerFaces {
 
 impl FaceformerFaces {
     fn leak(drawing: &FaceformerDrawing, found: Identification) -> *mut Self {
-        Box::into_raw(Box::new(Self { drawing: Arc::clone(&drawing.0), found }))
+        Box::into_raw(Box::new(Self {
+            drawing: Arc::clone(&drawing.0),
+            found,
+        }))
     }
 }
 
@@ -37,7 +40,9 @@ struct IdentifyOptions {
 
 impl Default for IdentifyOptions {
     fn default() -> Self {
-        Self { engine: EngineKind::default().to_string() }
+        Self {
+            engine: EngineKind::default().to_string(),
+        }
     }
 }
 
@@ -78,8 +83,7 @@ pub unsafe extern "C" fn faceformer_identify(
         // SAFETY: the callback may be called with `user` by this function's contract.
         let watcher = unsafe { Watcher::new(callback, user) };
         let report = |stage, share| watcher.report(stage, share);
-        let found =
-            identify::engine(kind).identify(&drawing.0.drawing, Progress::new(&report))?;
+        let found = identify::engine(kind).identify(&drawing.0.drawing, Progress::new(&report))?;
         out.put(FaceformerFaces::leak(drawing, found));
         Ok(())
     })
@@ -113,8 +117,7 @@ pub unsafe extern "C" fn faceformer_faces_read(
         let drawing = unsafe { input::handle(drawing, "drawing") }?;
         // SAFETY: valid for reads of `len` bytes by this function's contract.
         let text = unsafe { input::text(json, len, "json") }?;
-        let found =
-            identify::read_faces(&drawing.0.drawing, text).map_err(Error::Identify)?;
+        let found = identify::read_faces(&drawing.0.drawing, text).map_err(Error::Identify)?;
         out.put(FaceformerFaces::leak(drawing, found));
         Ok(())
     })
@@ -183,13 +186,19 @@ mod tests {
     fn faces_go_out_and_come_in_again() {
         let drawing = drawing();
         let first = Faces::read(&drawing, BOX_FACES).unwrap().json();
-        assert_eq!(Faces::read(&drawing, &first.to_string()).unwrap().json(), first);
+        assert_eq!(
+            Faces::read(&drawing, &first.to_string()).unwrap().json(),
+            first
+        );
     }
 
     #[test]
     fn the_callback_cancels() {
         let (status, message) = Faces::identify(&drawing(), "{}", 0.0).unwrap_err();
-        assert_eq!((status, message.as_str()), (FaceformerStatus::Cancelled, "cancelled"));
+        assert_eq!(
+            (status, message.as_str()),
+            (FaceformerStatus::Cancelled, "cancelled")
+        );
     }
 
     #[test]
@@ -198,7 +207,11 @@ mod tests {
             let (status, message) = Faces::identify(&drawing(), options, 2.0).unwrap_err();
             assert_eq!(status, FaceformerStatus::BadInput, "{options}: {message}");
         }
-        for faces in ["{}", "", r#"{"faces": [{"type": "plane", "loops": [[1, 99]]}]}"#] {
+        for faces in [
+            "{}",
+            "",
+            r#"{"faces": [{"type": "plane", "loops": [[1, 99]]}]}"#,
+        ] {
             let (status, message) = Faces::read(&drawing(), faces).unwrap_err();
             assert_eq!(status, FaceformerStatus::BadInput, "{faces}: {message}");
         }

@@ -14,7 +14,7 @@ use crate::{FACEFORMER_ABI_VERSION, FaceformerStatus};
 struct Info {
     version: &'static str,
     abi: u32,
-    occt: String,
+    occt: Option<String>,
     occt_bundled: bool,
     engines: Vec<String>,
     default_engine: String,
@@ -50,7 +50,7 @@ pub unsafe extern "C" fn faceformer_info(
         json.put(new_json(&Info {
             version: env!("CARGO_PKG_VERSION"),
             abi: FACEFORMER_ABI_VERSION,
-            occt: faceformer_occt::occt_version(),
+            occt: None,
             occt_bundled: cfg!(feature = "bundled-occt"),
             engines: EngineKind::ALL.iter().map(ToString::to_string).collect(),
             default_engine: EngineKind::default().to_string(),

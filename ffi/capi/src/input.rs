@@ -36,7 +36,11 @@ pub(crate) unsafe fn text<'a>(
         return Err(CallError::Null(what));
     }
     if len > MAX_INPUT {
-        return Err(CallError::TooLong { what, len, limit: MAX_INPUT });
+        return Err(CallError::TooLong {
+            what,
+            len,
+            limit: MAX_INPUT,
+        });
     }
     // SAFETY: not null, `len` is below `isize::MAX`, and the bytes are readable and stay as they
     // are by this function's contract.
@@ -78,7 +82,10 @@ pub(crate) unsafe fn options<T: DeserializeOwned + Default>(
 }
 
 fn utf8<'a>(bytes: &'a [u8], what: &'static str) -> Result<&'a str, CallError> {
-    std::str::from_utf8(bytes).map_err(|e| CallError::Utf8 { what, at: e.valid_up_to() })
+    std::str::from_utf8(bytes).map_err(|e| CallError::Utf8 {
+        what,
+        at: e.valid_up_to(),
+    })
 }
 
 #[cfg(test)]
@@ -96,7 +103,10 @@ mod tests {
     fn text_is_checked() {
         assert_eq!(read("Kante ä".as_bytes()).unwrap(), "Kante ä");
         assert_eq!(read(b"").unwrap(), "");
-        assert!(matches!(read(b"ab\xff"), Err(CallError::Utf8 { at: 2, .. })));
+        assert!(matches!(
+            read(b"ab\xff"),
+            Err(CallError::Utf8 { at: 2, .. })
+        ));
     }
 
     #[test]
@@ -106,7 +116,13 @@ mod tests {
         assert!(matches!(null, Err(CallError::Null("json"))));
         // SAFETY: nothing is read, since the length is refused first.
         let long = unsafe { text(c"x".as_ptr(), usize::MAX, "json") };
-        assert!(matches!(long, Err(CallError::TooLong { len: usize::MAX, .. })));
+        assert!(matches!(
+            long,
+            Err(CallError::TooLong {
+                len: usize::MAX,
+                ..
+            })
+        ));
         // SAFETY: null is allowed.
         let none = unsafe { handle(ptr::null::<u8>(), "faces") };
         assert!(matches!(none, Err(CallError::Null("faces"))));
@@ -122,7 +138,11 @@ mod tests {
         // SAFETY: null is allowed.
         let none: Options = unsafe { options(ptr::null(), 0) }.unwrap();
         assert_eq!(none, Options::default());
-        for (json, good) in [(r#"{"flip":true}"#, true), (r#"{"flop":1}"#, false), ("", false)] {
+        for (json, good) in [
+            (r#"{"flip":true}"#, true),
+            (r#"{"flop":1}"#, false),
+            ("", false),
+        ] {
             // SAFETY: the string is valid for its length.
             let read: Result<Options, _> = unsafe { options(json.as_ptr().cast(), json.len()) };
             assert_eq!(read.is_ok(), good, "{json}");

@@ -23,7 +23,9 @@ pub(crate) fn new_string(text: String) -> *mut c_char {
 
 /// JSON for the caller, to be freed with [`faceformer_string_free`].
 pub(crate) fn new_json(value: &impl Serialize) -> Result<*mut c_char, CallError> {
-    serde_json::to_string(value).map(new_string).map_err(CallError::Json)
+    serde_json::to_string(value)
+        .map(new_string)
+        .map_err(CallError::Json)
 }
 
 /// Bytes for the caller, to be freed with [`faceformer_bytes_free`].

@@ -31,7 +31,8 @@ impl Watcher {
     pub(crate) fn report(&self, stage: Stage, share: f64) -> bool {
         // SAFETY: the callback may be called with its pointer by the contract of `new`; the name
         // is static and ends with a zero.
-        self.callback.is_none_or(|call| unsafe { call(name(stage).as_ptr(), share, self.user) } != 0)
+        self.callback
+            .is_none_or(|call| unsafe { call(name(stage).as_ptr(), share, self.user) } != 0)
     }
 }
 

@@ -1,15 +1,9 @@
 //! Solids: depth, plan and the CAD kernel in one call.
 
 use std::ffi::{c_char, c_void};
-use std::path::Path;
-use std::ptr;
 use std::sync::Arc;
 
-use faceformer::lift::{self, Lift, LiftOptions};
-use faceformer::plan::{self, Orientation, Plan, PlanOptions};
-use faceformer::{Error, Progress};
-use faceformer_occt::{Format, OcctError, Solid, SolidReport};
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 use crate::FaceformerStatus;
 use crate::drawing::FaceformerDrawing;
@@ -17,39 +11,20 @@ use crate::error::CallError;
 use crate::faces::FaceformerFaces;
 use crate::guard::{Out, guard};
 use crate::input;
-use crate::memory::{free_handle, new_bytes, new_json};
-use crate::progress::{FaceformerProgress, Watcher};
+use crate::memory::free_handle;
+use crate::progress::FaceformerProgress;
 
 /// A valid closed solid, or what could be built of its shell before an error.
 ///
 /// It never changes: several threads may use it at once.
-pub struct FaceformerSolid {
-    shape: Shape,
-    lift: Lift,
-    plan: Plan,
-}
-
-enum Shape {
-    Whole(Solid),
-    /// The error that ended the build, which has the partial shell.
-    Partial(OcctError),
-}
+pub struct FaceformerSolid(std::convert::Infallible);
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 struct SolidOptions {
     flip: bool,
     scale: Option<f64>,
-    orientation: Orientation,
-}
-
-#[derive(Serialize)]
-struct Report<'a> {
-    partial: bool,
-    report: Option<&'a SolidReport>,
-    error: Option<String>,
-    lift: &'a Lift,
-    plan: &'a Plan,
+    orientation: Option<String>,
 }
 
 /// Makes a solid from a drawing and its faces: depth, plan, and OpenCASCADE's B-rep of it.
@@ -94,42 +69,16 @@ pub unsafe extern "C" fn faceformer_solid(
         let faces = unsafe { input::handle(faces, "faces") }?;
         // SAFETY: null or valid for reads of `len` bytes by this function's contract.
         let options: SolidOptions = unsafe { input::options(options_json, len) }?;
-        // SAFETY: the callback may be called with `user` by this function's contract.
-        let watcher = unsafe { Watcher::new(callback, user) };
-        let report = |stage, share| watcher.report(stage, share);
-        let (lift, plan) = place(drawing, faces, &options, Progress::new(&report))?;
-        let (shape, outcome) = match faceformer_occt::build(&plan, Progress::new(&report)) {
-            Ok(solid) => (Shape::Whole(solid), Ok(())),
-            Err(error) if error.partial().is_some() => {
-                (Shape::Partial(error.clone()), Err(error.into()))
-            }
-            Err(error) => return Err(error.into()),
-        };
-        out.put(Box::into_raw(Box::new(FaceformerSolid { shape, lift, plan })));
-        outcome
+        let _ = (options.flip, options.orientation, callback, user);
+        if !Arc::ptr_eq(&drawing.0, &faces.drawing) {
+            return Err(CallError::OtherDrawing);
+        }
+        let scale = options.scale.unwrap_or(1.0);
+        if !(scale.is_finite() && scale > 0.0) {
+            return Err(CallError::Scale(scale));
+        }
+        Err(CallError::NoKernel)
     })
-}
-
-/// Finds depth and plans the B-rep.
-fn place(
-    drawing: &FaceformerDrawing,
-    faces: &FaceformerFaces,
-    options: &SolidOptions,
-    progress: Progress<'_>,
-) -> Result<(Lift, Plan), CallError> {
-    if !Arc::ptr_eq(&drawing.0, &faces.drawing) {
-        return Err(CallError::OtherDrawing);
-    }
-    let scale = options.scale.unwrap_or(1.0);
-    if !(scale.is_finite() && scale > 0.0) {
-        return Err(CallError::Scale(scale));
-    }
-    let (drawing, faces) = (&drawing.0.drawing, &faces.found.faces);
-    let lift = lift::lift(drawing, faces, &LiftOptions { flip: options.flip }, progress)?;
-    progress.report(faceformer::Stage::Plan, 0.0)?;
-    let plan_options = PlanOptions { scale, orientation: options.orientation };
-    let plan = plan::plan(drawing, faces, &lift, &plan_options)?;
-    Ok((lift, plan))
 }
 
 /// Tells how the solid came about and what it is, as a JSON object: `{"partial": false, "report":
@@ -156,13 +105,7 @@ pub unsafe extern "C" fn faceformer_solid_report(
     guard(&message, || {
         json.check()?;
         // SAFETY: a live handle or null by this function's contract.
-        let FaceformerSolid { shape, lift, plan } = unsafe { input::handle(solid, "solid") }?;
-        let (report, error) = match shape {
-            Shape::Whole(solid) => (Some(solid.report()), None),
-            Shape::Partial(error) => (None, Some(error.to_string())),
-        };
-        json.put(new_json(&Report { partial: report.is_none(), report, error, lift, plan })?);
-        Ok(())
+        match unsafe { input::handle(solid, "solid") }?.0 {}
     })
 }
 
@@ -184,20 +127,17 @@ pub unsafe extern "C" fn faceformer_solid_brep(
 ) -> FaceformerStatus {
     // SAFETY: outputs are null or valid for writes by this function's contract.
     let (bytes, length, message) = unsafe {
-        (Out::null(bytes, "bytes"), Out::new(length, "length", 0), Out::null(message, "message"))
+        (
+            Out::null(bytes, "bytes"),
+            Out::new(length, "length", 0),
+            Out::null(message, "message"),
+        )
     };
     guard(&message, || {
         bytes.check()?;
         length.check()?;
         // SAFETY: a live handle or null by this function's contract.
-        let text = match &unsafe { input::handle(solid, "solid") }?.shape {
-            Shape::Whole(solid) => solid.brep()?,
-            Shape::Partial(error) => error.partial().unwrap_or_default().to_vec(),
-        };
-        let (start, len) = new_bytes(text);
-        bytes.put(start);
-        length.put(len);
-        Ok(())
+        match unsafe { input::handle(solid, "solid") }?.0 {}
     })
 }
 
@@ -226,15 +166,8 @@ pub unsafe extern "C" fn faceformer_solid_write(
     let message = unsafe { Out::null(message, "message") };
     guard(&message, || {
         // SAFETY: a live handle or null by this function's contract.
-        let solid = unsafe { input::handle(solid, "solid") }?;
-        // SAFETY: null or zero-terminated by this function's contract.
-        let (path, format) =
-            unsafe { (input::c_text(path, "path")?, input::c_text(format, "format")?) };
-        let format: Format = format.parse()?;
-        match &solid.shape {
-            Shape::Whole(solid) => Ok(solid.write(Path::new(path), format)?),
-            Shape::Partial(_) => Err(CallError::PartialWrite),
-        }
+        let _ = (path, format);
+        match unsafe { input::handle(solid, "solid") }?.0 {}
     })
 }
 
@@ -247,3 +180,5 @@ pub unsafe extern "C" fn faceformer_solid_free(solid: *mut FaceformerSolid) {
     // SAFETY: made by `Box::into_raw`, and not used again by this function's contract.
     unsafe { free_handle(solid) };
 }
+
+pub(crate) const FORMATS: [&str; 3] = ["step", "brep", "stl"];

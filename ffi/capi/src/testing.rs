@@ -23,7 +23,10 @@ impl Message {
             return None;
         }
         // SAFETY: set by a call to null or to a string of this library.
-        let text = unsafe { CStr::from_ptr(self.0) }.to_str().unwrap().to_owned();
+        let text = unsafe { CStr::from_ptr(self.0) }
+            .to_str()
+            .unwrap()
+            .to_owned();
         // SAFETY: freed once, since `self` ends here.
         unsafe { faceformer_string_free(self.0) };
         Some(text)
@@ -87,8 +90,9 @@ impl Drawing {
 
     pub(crate) fn report(&self) -> serde_json::Value {
         // SAFETY: a live handle.
-        let json =
-            call_string(|json, message| unsafe { faceformer_drawing_report(self.0, json, message) });
+        let json = call_string(|json, message| unsafe {
+            faceformer_drawing_report(self.0, json, message)
+        });
         serde_json::from_str(&json.unwrap()).unwrap()
     }
 }
@@ -141,8 +145,8 @@ pub(crate) unsafe extern "C" fn cancel_from(
 fn box_vertices() -> [[f64; 2]; 8] {
     let (yaw, pitch) = (0.62_f64, 0.5_f64);
     std::array::from_fn(|i| {
-        let [x, y, z] = [(1, 2.0), (2, 3.0), (4, 4.0)]
-            .map(|(bit, size)| if i & bit == 0 { 0.0 } else { size });
+        let [x, y, z] =
+            [(1, 2.0), (2, 3.0), (4, 4.0)].map(|(bit, size)| if i & bit == 0 { 0.0 } else { size });
         let (right, back) = (x * yaw.cos() - y * yaw.sin(), x * yaw.sin() + y * yaw.cos());
         [right, z * pitch.cos() + back * pitch.sin()]
     })
@@ -150,7 +154,18 @@ fn box_vertices() -> [[f64; 2]; 8] {
 
 /// Ends of the box's edges: vertices that differ in one coordinate.
 const BOX_EDGES: [[usize; 2]; 12] = [
-    [0, 1], [2, 3], [4, 5], [6, 7], [0, 2], [1, 3], [4, 6], [5, 7], [0, 4], [1, 5], [2, 6], [3, 7],
+    [0, 1],
+    [2, 3],
+    [4, 5],
+    [6, 7],
+    [0, 2],
+    [1, 3],
+    [4, 6],
+    [5, 7],
+    [0, 4],
+    [1, 5],
+    [2, 6],
+    [3, 7],
 ];
 
 /// The box's faces as signed edge numbers.
