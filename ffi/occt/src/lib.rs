@@ -1,1 +1,29 @@
-//! Placeholder that the first change to this crate replaces.
+//! Builds a [`Plan`](faceformer::plan::Plan) as an OpenCASCADE solid.
+//!
+//! One coarse call, [`build`], builds, checks and writes a whole solid. Vertices and edges are
+//! shared between faces from the start; loose faces are never sewn. Planes and cylinders, lines,
+//! circles and ellipses stay what they are; silhouettes are removed at the end. What comes out is
+//! valid, closed, of positive volume and tight, or an [`OcctError`] that names the edge or face.
+//!
+//! # Why a bridge of its own
+//! The crate `opencascade` 0.3 (over `opencascade-sys`) cannot make edges from shared vertices nor
+//! trimmed faces on a given surface, has no shape check, and an OCCT exception in it ends the
+//! process, which would take FreeCAD down with it. Here every call returns a `Result`: OCCT's
+//! `Standard_Failure`, `std::exception` and anything else that is thrown become
+//! [`OcctError::Kernel`]. What we do take from that project is its static OCCT, through the crate
+//! `occt-sys` and the feature `bundled-occt`.
+//!
+//! # Invariants
+//! - Shapes never leave this crate: BREP text does. So the OCCT in here and another one in the same
+//!   process (FreeCAD's) never see each other's objects.
+//! - Inside the kernel the model has a half diagonal of about 100 units, whatever the plan's scale.
+
+mod bridge;
+mod encode;
+mod error;
+mod report;
+mod solid;
+
+pub use error::OcctError;
+pub use report::{FaceCounts, SolidReport};
+pub use solid::{Format, Solid, build, occt_version};
