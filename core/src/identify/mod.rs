@@ -13,9 +13,11 @@ mod registry;
 mod shortest;
 #[cfg(test)]
 pub(crate) mod testing;
+mod varley;
 
 pub use error::IdentifyError;
 pub use faces::{FILE, TRUTH, from_truth, read_faces};
 pub use model::{Candidate, Engine, Evidence, Face, Identification};
 pub use registry::{EngineKind, engine};
 pub use shortest::ShortestEngine;
+pub use varley::VarleyEngine;

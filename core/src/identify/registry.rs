@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Engine, Identification, IdentifyError, ShortestEngine};
+use super::{Engine, Identification, IdentifyError, ShortestEngine, VarleyEngine};
 use crate::drawing::Drawing;
 use crate::{Progress, Result};
 
@@ -67,7 +67,8 @@ impl FromStr for EngineKind {
 pub fn engine(kind: EngineKind) -> Box<dyn Engine> {
     match kind {
         EngineKind::Shortest => Box::new(ShortestEngine::default()),
-        EngineKind::Rotation | EngineKind::Varley => Box::new(Absent(kind)),
+        EngineKind::Varley => Box::new(VarleyEngine),
+        EngineKind::Rotation => Box::new(Absent(kind)),
     }
 }
 
