@@ -16,7 +16,7 @@ use std::collections::BinaryHeap;
 use glam::DVec2;
 
 use super::postprocess::{Prediction, postprocess};
-use super::{Engine, EngineKind, Identification, IdentifyError};
+use super::{Engine, EngineKind, Identification, IdentifyError, orient};
 use crate::drawing::{CoEdge, Drawing, Graph, SurfaceKind};
 use crate::{Progress, Result, Stage};
 
@@ -63,7 +63,8 @@ impl Engine for ShortestEngine {
                 predict(second);
             }
         }
-        let faces = postprocess(&graph, &predictions).faces;
+        let mut faces = postprocess(&graph, &predictions).faces;
+        orient(&graph, &mut faces);
         if faces.is_empty() {
             return Err(IdentifyError::NoFaces {
                 engine: self.name(),

@@ -19,9 +19,13 @@ impl Choice {
         (self.priority - self.second, self.priority)
     }
 
-    /// Log-odds of the best merge against the second best.
+    /// Log of the best merge's priority over that of the second best.
     pub(super) fn margin(&self) -> f64 {
-        (self.priority / self.second).ln()
+        if self.second == 0.0 {
+            f64::INFINITY
+        } else {
+            (self.priority / self.second).ln()
+        }
     }
 }
 
