@@ -1,6 +1,7 @@
 //! Why a call did not succeed, and the status that says so.
 
 use faceformer::identify::IdentifyError;
+use faceformer_occt::OcctError;
 
 use crate::FaceformerStatus;
 
@@ -34,6 +35,12 @@ pub(crate) enum CallError {
     /// The scale makes no model.
     #[error("the option scale is {0}; give a number above 0")]
     Scale(f64),
+    /// No file format of that name.
+    #[error("there is no file format {0:?}; there are step, brep and stl")]
+    Format(String),
+    /// A partial shell was to be written to a file.
+    #[error("this is only a partial shell; faceformer_solid_brep gives it for inspection")]
+    PartialWrite,
     /// A faces handle was used with a drawing that it does not belong to.
     #[error("the faces belong to another drawing; identify or read them with this one")]
     OtherDrawing,
@@ -44,8 +51,11 @@ pub(crate) enum CallError {
     #[error(transparent)]
     Stage(#[from] faceformer::Error),
     /// This build has no CAD kernel.
-    #[error("this build of the library cannot make solids")]
+    #[error("this build of the library cannot make solids yet")]
     NoKernel,
+    /// The CAD kernel failed.
+    #[error(transparent)]
+    Kernel(#[from] OcctError),
 }
 
 impl CallError {
@@ -53,7 +63,9 @@ impl CallError {
     pub(crate) fn status(&self) -> FaceformerStatus {
         use faceformer::Error as Stage;
         match self {
-            Self::Stage(Stage::Cancelled) => FaceformerStatus::Cancelled,
+            Self::Stage(Stage::Cancelled) | Self::Kernel(OcctError::Cancelled) => {
+                FaceformerStatus::Cancelled
+            }
             Self::Stage(
                 Stage::Drawing(_)
                 | Stage::Identify(
@@ -62,12 +74,17 @@ impl CallError {
                     | IdentifyError::UnknownEngine(_),
                 ),
             ) => FaceformerStatus::BadInput,
-            Self::Stage(_) | Self::NoKernel | Self::Json(_) => FaceformerStatus::Failed,
+            Self::Stage(_)
+            | Self::Kernel(_)
+            | Self::PartialWrite
+            | Self::NoKernel
+            | Self::Json(_) => FaceformerStatus::Failed,
             Self::Null(_)
             | Self::TooLong { .. }
             | Self::Utf8 { .. }
             | Self::Options(_)
             | Self::Scale(_)
+            | Self::Format(_)
             | Self::OtherDrawing => FaceformerStatus::BadInput,
         }
     }

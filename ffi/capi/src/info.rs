@@ -14,7 +14,7 @@ use crate::{FACEFORMER_ABI_VERSION, FaceformerStatus};
 struct Info {
     version: &'static str,
     abi: u32,
-    occt: Option<String>,
+    occt: String,
     occt_bundled: bool,
     engines: Vec<String>,
     default_engine: String,
@@ -50,7 +50,7 @@ pub unsafe extern "C" fn faceformer_info(
         json.put(new_json(&Info {
             version: env!("CARGO_PKG_VERSION"),
             abi: FACEFORMER_ABI_VERSION,
-            occt: None,
+            occt: faceformer_occt::occt_version()?,
             occt_bundled: cfg!(feature = "bundled-occt"),
             engines: EngineKind::ALL.iter().map(ToString::to_string).collect(),
             default_engine: EngineKind::default().to_string(),
@@ -58,4 +58,26 @@ pub unsafe extern "C" fn faceformer_info(
         })?);
         Ok(())
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::call_string;
+
+    #[test]
+    fn info_names_versions_and_engines() {
+        // SAFETY: live slots.
+        let info = call_string(|json, message| unsafe { faceformer_info(json, message) }).unwrap();
+        let info: serde_json::Value = serde_json::from_str(&info).unwrap();
+        assert_eq!(info["abi"], FACEFORMER_ABI_VERSION);
+        assert_eq!(info["version"], env!("CARGO_PKG_VERSION"));
+        assert!(info["occt"].as_str().unwrap().starts_with("7."), "{info}");
+        assert!(
+            info["engines"]
+                .as_array()
+                .unwrap()
+                .contains(&info["default_engine"])
+        );
+    }
 }
