@@ -135,6 +135,8 @@ fn check_face(
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
+
     use super::super::testing;
     use super::*;
 
@@ -213,6 +215,41 @@ mod tests {
             let fault = fault(text);
             for part in parts {
                 assert!(fault.contains(part), "{text}: {fault}");
+            }
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn what_is_accepted_is_made_of_closed_walks(
+            loops in prop::collection::vec(prop::collection::vec(-14..14i64, 0..5), 0..3),
+            turn in 0..4usize,
+        ) {
+            let cube = testing::cube();
+            let mut loops = loops;
+            if turn > 0 {
+                let mut walk: Vec<i64> = cube.truth.as_ref().unwrap().faces[turn].loops[0]
+                    .iter().map(|c| c.signed()).collect();
+                walk.rotate_left(turn);
+                loops.insert(0, walk);
+            }
+            let text = serde_json::json!({"faces": [{"type": "cone", "loops": loops}]});
+            match read(&text.to_string()) {
+                Ok(found) => {
+                    let graph = Graph::new(&cube);
+                    for walk in &found.faces[0].loops {
+                        for (i, &c) in walk.iter().enumerate() {
+                            let next = walk[(i + 1) % walk.len()];
+                            prop_assert_eq!(graph.head(c), graph.origin(next));
+                        }
+                    }
+                    prop_assert!(!loops.is_empty());
+                }
+                Err(IdentifyError::Mismatch { face, .. }) => prop_assert_eq!(face, 1),
+                Err(IdentifyError::Format(_)) => {
+                    prop_assert!(loops.iter().flatten().any(|&k| k == 0));
+                }
+                Err(other) => prop_assert!(false, "{}", other),
             }
         }
     }
