@@ -136,3 +136,15 @@ fn two_clicks_make_a_solid() {
         assert!(size > 10_000, "{} has {size} bytes", path.display());
     }
 }
+
+#[test]
+fn the_translation_file_has_all_texts() {
+    need("python3", "python3");
+    let result = Command::new("python3")
+        .arg(workbench().join("tools/translations.py"))
+        .arg("--check")
+        .output()
+        .expect("the command can be started");
+    let text = String::from_utf8_lossy(&result.stderr);
+    assert!(result.status.success(), "{text}");
+}

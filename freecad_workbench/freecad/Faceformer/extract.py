@@ -150,7 +150,7 @@ def _edges(thing: Any, names: tuple[str, ...]) -> list[tuple[str, Part.Edge]]:
         shape, outer = Part.getShape(thing), _parents_placement(thing)
     if shape.isNull():
         raise BadInput(
-            translate("Faceformer", "{} has no shape. Recompute it, or select another.").format(
+            translate("Faceformer", "{} has no lines. Draw some, or select another.").format(
                 getattr(thing, "Label", type(thing).__name__)
             )
         )

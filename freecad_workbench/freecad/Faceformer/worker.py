@@ -13,7 +13,7 @@ from typing import Any
 import FreeCAD
 
 from .errors import Cancelled
-from .i18n import translate
+from .i18n import mark, translate
 from .pipeline import Progress
 
 Work = Callable[[Progress], Any]
@@ -22,11 +22,11 @@ QUICK = 0.3
 """Seconds that a command waits before it shows a progress dialog."""
 
 STAGES = {
-    "drawing": "Reading the drawing",
-    "identify": "Identifying faces",
-    "lift": "Recovering depth",
-    "plan": "Planning the solid",
-    "build": "Building the solid",
+    "drawing": mark("Faceformer", "Reading the drawing"),
+    "identify": mark("Faceformer", "Identifying faces"),
+    "lift": mark("Faceformer", "Recovering depth"),
+    "plan": mark("Faceformer", "Planning the solid"),
+    "build": mark("Faceformer", "Building the solid"),
 }
 
 
