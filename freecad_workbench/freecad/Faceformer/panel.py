@@ -13,6 +13,7 @@ from .errors import FaceformerError
 from .i18n import translate
 from .model import Finding
 from .panel_lists import FaceList, MessageList
+from .picking import Picker
 from .qt import QtCore, QtGui, QtWidgets, flags
 from .report import show_error
 from .session import Session
@@ -80,6 +81,7 @@ class Panel:
         self.session = session
         self._task: Task | None = None
         self._patches: patches.Patches | None = None
+        self._picker: Picker | None = None
         self._ok: Any = None
         self._build()
         self._timer = QtCore.QTimer(self.form)
@@ -224,7 +226,10 @@ class Panel:
             self._patches = patches.Patches(
                 view, self.session.drawn.placement, preferences.transparency()
             )
-        self._patches.show(self.session.outcome.drawing, faces)
+            self._picker = Picker(view, self.session.drawn.placement, self._faces.pick)
+        drawing = self.session.outcome.drawing
+        self._patches.show(drawing, faces)
+        self._picker.show([face.outline(drawing) for face in faces])
         for number, face in enumerate(faces):
             self._patches.set_visible(number, face.key not in self.session.off)
 
@@ -254,7 +259,8 @@ class Panel:
     def _remove_patches(self) -> None:
         if self._patches is not None:
             self._patches.remove()
-            self._patches = None
+            self._picker.remove()
+            self._patches = self._picker = None
 
     # The user's choices
 

@@ -36,6 +36,14 @@ def area(loops: Sequence[Sequence[Point]]) -> float:
     return sum((b[0] - a[0] + c[0] - d[0]) / 2 * (c[1] - b[1]) for a, b, c, d in fill(loops))
 
 
+def contains(loops: Sequence[Sequence[Point]], point: Point) -> bool:
+    """Whether a point is inside the loops."""
+    x, y = point
+    sides = [segment for loop in loops for segment in _segments(loop)]
+    left = [side for side in sides if side[0][1] <= y < side[1][1] and _at(side, y) < x]
+    return len(left) % 2 == 1
+
+
 def _segments(loop: Sequence[Point]) -> list[Segment]:
     """The sides of a closed polyline that are not level, each from its lower end."""
     sides = zip(loop, [*loop[1:], *loop[:1]], strict=True)

@@ -8,6 +8,7 @@ from .test_extract import ExtractTest, NormaliseTest
 from .test_feature import FeatureTest
 from .test_model import ModelTest
 from .test_native import NativeTest
+from .test_picking import PickingTest
 from .test_pipeline import PipelineTest
 from .test_plane import PlaneTest
 from .test_resources import ResourcesTest
@@ -20,6 +21,7 @@ __all__ = [
     "ModelTest",
     "NativeTest",
     "NormaliseTest",
+    "PickingTest",
     "PipelineTest",
     "PlaneTest",
     "ResourcesTest",

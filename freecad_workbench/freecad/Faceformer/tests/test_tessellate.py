@@ -2,7 +2,7 @@
 import math
 import unittest
 
-from ..tessellate import area, fill
+from ..tessellate import area, contains, fill
 
 SQUARE = [(0, 0), (4, 0), (4, 4), (0, 4)]
 
@@ -35,3 +35,9 @@ class TessellateTest(unittest.TestCase):
     def test_nothing_and_a_flat_line_have_no_pieces(self):
         self.assertEqual(fill([]), [])
         self.assertEqual(fill([[(0, 0), (1, 0), (2, 0)]]), [])
+
+    def test_points_are_inside_or_not(self):
+        hole = [(1, 1), (3, 1), (3, 2), (1, 2)]
+        self.assertTrue(contains([SQUARE, hole], (0.5, 1.5)))
+        self.assertFalse(contains([SQUARE, hole], (2, 1.5)))
+        self.assertFalse(contains([SQUARE, hole], (5, 1)))
