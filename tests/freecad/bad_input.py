@@ -21,6 +21,10 @@ def sketch_of(document, lines):
     return sketch
 
 
+def _raise(_stage, _share):
+    raise ValueError("from the callback")
+
+
 def main():
     document = FreeCAD.newDocument("BadInput")
     box = document.addObject("Part::Box", "Box")
@@ -56,6 +60,12 @@ def main():
             lambda w=work: w(block, progress=lambda _stage, _share: False),
             Cancelled,
         )
+    refuses(
+        "a progress callback that raises",
+        ["from the callback"],
+        lambda: api.identify_faces(block, progress=_raise),
+        ValueError,
+    )
     refuses("solid: scale 0", ["scale"], lambda: api.to_solid(block, scale=0), BadInput)
     refuses("solid: scale NaN", ["scale"], lambda: api.to_solid(block, scale=math.nan), BadInput)
     refuses("wireframe: no direction", ["length"], lambda: api.wireframe(box, (0, 0, 0)), BadInput)

@@ -7,6 +7,7 @@ import FreeCADGui
 
 from .i18n import mark, translate
 from .qt import QtWidgets, execute
+from .show import view_3d
 
 Direction = tuple[float, float, float]
 
@@ -75,9 +76,8 @@ class DirectionDialog(QtWidgets.QDialog):
 
 def current_direction() -> Direction | None:
     """The direction from the scene to the viewer in the active 3D view."""
-    document = FreeCADGui.ActiveDocument
-    view = document.ActiveView if document is not None else None
-    if not hasattr(view, "getViewDirection"):
+    view = view_3d()
+    if view is None:
         return None
     x, y, z = view.getViewDirection()
     return (-x, -y, -z)

@@ -88,6 +88,11 @@ def normalise(source: Any) -> list[tuple[Any, tuple[str, ...]]]:
     return [(thing, tuple(names)) for thing, names in links.values()]
 
 
+def property_links(source: Any) -> list[tuple[Any, list[str]]]:
+    """A source of document objects in the form of FreeCAD's link properties."""
+    return [(thing, list(names) or [""]) for thing, names in normalise(source)]
+
+
 def _flatten(source: Any) -> Iterator[tuple[Any, Iterable[str]]]:
     if source is None:
         return
@@ -143,6 +148,11 @@ def extract(source: Any) -> Extraction:
     return Extraction(tuple(_flat(sampled, placement)), placement)
 
 
+def is_planar_object(thing: Any) -> bool:
+    """Whether an object is flat by its type: a sketch, or a Draft object, which may be filled."""
+    return hasattr(thing, "isDerivedFrom") and thing.isDerivedFrom("Part::Part2DObject")
+
+
 def _edges(thing: Any, names: tuple[str, ...]) -> list[tuple[str, Part.Edge]]:
     if isinstance(thing, Part.Shape):
         shape, outer = thing, FreeCAD.Placement()
@@ -154,7 +164,7 @@ def _edges(thing: Any, names: tuple[str, ...]) -> list[tuple[str, Part.Edge]]:
                 getattr(thing, "Label", type(thing).__name__)
             )
         )
-    if not names and shape.Faces:
+    if not names and shape.Faces and not is_planar_object(thing):
         raise BadInput(
             translate(
                 "Faceformer",

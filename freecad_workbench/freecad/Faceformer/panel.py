@@ -8,16 +8,16 @@ from typing import Any
 import FreeCAD
 import FreeCADGui
 
-from . import icon, patches, pipeline, preferences, selection
+from . import icon, patches, preferences, selection
 from .errors import FaceformerError
 from .i18n import translate
 from .model import Finding
-from .panel_lists import FaceList, MessageList
+from .panel_form import PanelForm
 from .picking import Picker
 from .qt import QtCore, QtGui, QtWidgets, flags
 from .report import show_error
-from .session import Session
-from .show import show_solid
+from .session import Outcome, Session
+from .show import show_solid, view_3d
 from .worker import Task, is_cancelled, run
 
 POLL = 40
@@ -83,7 +83,8 @@ class Panel:
         self._patches: patches.Patches | None = None
         self._picker: Picker | None = None
         self._ok: Any = None
-        self._build()
+        self.form = PanelForm(session.engine, session.options())
+        self._connect()
         self._timer = QtCore.QTimer(self.form)
         self._timer.timeout.connect(self._poll)
         FreeCADGui.Selection.addSelectionGate(selection.DrawingGate())
@@ -147,9 +148,9 @@ class Panel:
     def start(self) -> None:
         """Starts the identification."""
         self._stop_task()
-        self._update_head()
+        self._show_source()
         self._task = Task(self.session.work())
-        self._bar.setVisible(True)
+        self.form.show_progress(self._task.label())
         self._timer.start(POLL)
         self._update_buttons()
         if self._task.wait(0.15):
@@ -183,51 +184,41 @@ class Panel:
         task = self._task
         if task is None:
             return
-        self._bar.setFormat(f"{task.label()}... %p %")
-        self._bar.setValue(int(100 * task.share))
+        self.form.show_progress(task.label(), task.share)
         if not task.wait(0):
             return
         self._timer.stop()
         self._task = None
-        self._bar.setVisible(False)
-        self.session.outcome = task.result()
+        self.form.show_progress(None)
+        try:
+            self.session.outcome = task.result()
+        except Exception as error:  # a fault of the work itself is shown like any other
+            self.session.outcome = Outcome(error=error)
         self._show_outcome()
 
     # Showing
 
     def _show_outcome(self) -> None:
         outcome = self.session.outcome
-        readings = outcome.identified.identification.readings if outcome.identified else ()
-        self._reading.blockSignals(True)
-        self._reading.clear()
-        for number in range(len(readings)):
-            self._reading.addItem(
-                translate("Faceformer", "Best")
-                if number == 0
-                else translate("Faceformer", "Alternative {}").format(number)
-            )
-        self.session.reading = min(self.session.reading, max(len(readings) - 1, 0))
-        self._reading.setCurrentIndex(self.session.reading)
-        self._reading.blockSignals(False)
-        self._reading.setVisible(len(readings) > 1)
-        self._reading_label.setVisible(len(readings) > 1)
+        count = len(outcome.identified.identification.readings) if outcome.identified else 0
+        self.session.reading = min(self.session.reading, max(count - 1, 0))
+        self.form.show_readings(count, self.session.reading)
         self._show_faces()
         self._show_messages(outcome.error)
         self._update_buttons()
 
     def _show_faces(self) -> None:
         faces = self.session.faces()
-        self._faces.show_faces(faces, self.session.off)
-        if self.session.outcome.drawing is None:
+        self.form.faces.show_faces(faces, self.session.off)
+        drawing, view = self.session.outcome.drawing, view_3d()
+        if drawing is None or view is None:
             self._remove_patches()
             return
         if self._patches is None:
-            view = FreeCADGui.ActiveDocument.ActiveView
             self._patches = patches.Patches(
                 view, self.session.drawn.placement, preferences.transparency()
             )
-            self._picker = Picker(view, self.session.drawn.placement, self._faces.pick)
-        drawing = self.session.outcome.drawing
+            self._picker = Picker(view, self.session.drawn.placement, self.form.faces.pick)
         self._patches.show(drawing, faces)
         self._picker.show([face.outline(drawing) for face in faces])
         for number, face in enumerate(faces):
@@ -243,14 +234,12 @@ class Panel:
         if outcome.identified:
             notices = outcome.identified.identification.notices
             findings += [Finding("notice", text, (), ()) for text in notices]
-        self._messages.show_findings(findings)
-        self._messages_label.setVisible(bool(findings))
+        self.form.show_messages(findings)
 
-    def _update_head(self) -> None:
+    def _show_source(self) -> None:
         count = len(self.session.drawn.edges)
         text = translate("Faceformer", "{}: {} edges").format(self.session.source_label(), count)
-        self._head.setText(text)
-        self._head.setToolTip(text)
+        self.form.show_source(text)
 
     def _update_buttons(self) -> None:
         if self._ok is not None:
@@ -262,7 +251,7 @@ class Panel:
             self._picker.remove()
             self._patches = self._picker = None
 
-    # The user's choices
+    # What the user does
 
     def _pick_face(self, number: int | None) -> None:
         if self._patches is not None:
@@ -281,14 +270,18 @@ class Panel:
     def _pick_message(self, finding: Finding) -> None:
         if self._patches is None:
             return
-        self._faces.pick(None)
+        self.form.faces.pick(None)
         edges = self.session.drawn.edges
         lines = [edges[k].points for k in finding.edges if k < len(edges)]
         self._patches.mark(lines, finding.points)
 
-    def _choose_engine(self, number: int) -> None:
-        self.session.engine = pipeline.ENGINES[number]
+    def _choose_engine(self, engine: str) -> None:
+        self.session.engine = engine
         self.start()
+
+    def _cancel(self) -> None:
+        if self._task is not None:
+            self._task.cancel()
 
     def _choose_reading(self, number: int) -> None:
         self.session.reading = number
@@ -308,80 +301,15 @@ class Panel:
         self.start()
 
     def _read_options(self) -> None:
-        self.session.scale = self._scale.value()
-        self.session.flip = self._flip.isChecked()
-        self.session.orientation = pipeline.ORIENTATIONS[self._orientation.currentIndex()]
+        self.session.scale = self.form.scale()
+        self.session.flip = self.form.flip()
+        self.session.orientation = self.form.orientation()
 
-    # Widgets
-
-    def _build(self) -> None:
-        self.form = QtWidgets.QWidget()
-        self.form.setObjectName("Faceformer_Panel")
-        self.form.setWindowTitle(translate("Faceformer", "Identify Faces"))
-        self.form.setWindowIcon(QtGui.QIcon(icon("Faceformer_IdentifyFaces")))
-        layout = QtWidgets.QVBoxLayout(self.form)
-        layout.setContentsMargins(4, 4, 4, 4)
-        layout.addLayout(self._build_head())
-        self._bar = QtWidgets.QProgressBar()
-        self._bar.setRange(0, 100)
-        self._bar.setVisible(False)
-        layout.addWidget(self._bar)
-        self._faces = FaceList(self._pick_face, self._switch_face)
-        layout.addWidget(self._faces)
-        self._messages_label = QtWidgets.QLabel(translate("Faceformer", "Messages"))
-        self._messages_label.setVisible(False)
-        layout.addWidget(self._messages_label)
-        self._messages = MessageList(self._pick_message)
-        self._messages.setVisible(False)
-        layout.addWidget(self._messages)
-        layout.addLayout(self._build_options())
-
-    def _build_head(self) -> QtWidgets.QHBoxLayout:
-        head = QtWidgets.QHBoxLayout()
-        self._head = QtWidgets.QLabel()
-        self._head.setSizePolicy(QtWidgets.QSizePolicy.Ignored, QtWidgets.QSizePolicy.Preferred)
-        head.addWidget(self._head, 1)
-        button = QtWidgets.QToolButton()
-        button.setObjectName("Faceformer_UseSelection")
-        button.setIcon(QtGui.QIcon(":/icons/view-refresh.svg"))
-        button.setToolTip(
-            translate("Faceformer", "Takes the selected lines, or reads the drawing again")
-        )
-        button.clicked.connect(lambda *_: self._use_selection())
-        head.addWidget(button)
-        return head
-
-    def _build_options(self) -> QtWidgets.QFormLayout:
-        options = QtWidgets.QFormLayout()
-        self._reading_label = QtWidgets.QLabel(translate("Faceformer", "Reading"))
-        self._reading = _narrow_box()
-        self._reading.currentIndexChanged.connect(self._choose_reading)
-        options.addRow(self._reading_label, self._reading)
-        self._engine = _narrow_box()
-        self._engine.addItems(pipeline.ENGINES)
-        self._engine.setCurrentIndex(pipeline.ENGINES.index(self.session.engine))
-        self._engine.currentIndexChanged.connect(self._choose_engine)
-        options.addRow(translate("Faceformer", "Engine"), self._engine)
-        self._scale = QtWidgets.QDoubleSpinBox()
-        self._scale.setDecimals(4)
-        self._scale.setRange(1e-4, 1e6)
-        self._scale.setValue(self.session.scale)
-        options.addRow(translate("Faceformer", "Scale"), self._scale)
-        self._orientation = _narrow_box()
-        self._orientation.addItems(
-            [translate("Faceformer", "Upright"), translate("Faceformer", "As drawn")]
-        )
-        self._orientation.setCurrentIndex(pipeline.ORIENTATIONS.index(self.session.orientation))
-        options.addRow(translate("Faceformer", "Orientation"), self._orientation)
-        self._flip = QtWidgets.QCheckBox(translate("Faceformer", "Flip depth"))
-        self._flip.setChecked(self.session.flip)
-        options.addRow("", self._flip)
-        return options
-
-
-def _narrow_box() -> QtWidgets.QComboBox:
-    """A combo box that does not make the panel wider than FreeCAD's side bar."""
-    box = QtWidgets.QComboBox()
-    box.setMinimumContentsLength(6)
-    box.setSizeAdjustPolicy(QtWidgets.QComboBox.AdjustToMinimumContentsLengthWithIcon)
-    return box
+    def _connect(self) -> None:
+        self.form.refreshed.connect(self._use_selection)
+        self.form.cancelled.connect(self._cancel)
+        self.form.engine_chosen.connect(self._choose_engine)
+        self.form.reading_chosen.connect(self._choose_reading)
+        self.form.face_picked.connect(self._pick_face)
+        self.form.face_switched.connect(self._switch_face)
+        self.form.message_picked.connect(self._pick_message)

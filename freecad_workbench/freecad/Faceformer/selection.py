@@ -8,14 +8,15 @@ from typing import Any
 import FreeCAD
 import FreeCADGui
 
+from .extract import is_planar_object
 from .feature import is_solid
 
 Links = list[tuple[Any, list[str]]]
 
 
 def is_drawing(obj: Any) -> bool:
-    """Whether a whole object can be a drawing: a sketch, or a shape of edges without faces."""
-    if getattr(obj, "TypeId", "").startswith("Sketcher::SketchObject"):
+    """Whether a whole object can be a drawing: a sketch, a Draft object, or edges without faces."""
+    if is_planar_object(obj):
         return True
     shape = getattr(obj, "Shape", None)
     if shape is None or not hasattr(shape, "countElement"):

@@ -120,6 +120,7 @@ class Session:
         obj = self.target
         with transaction(obj.Document, translate("Faceformer", "Edit Solid")):
             feature.apply(obj, self.engine, options)
+            obj.Source = extract.property_links(self.links)
             obj.Document.recompute([obj])
             if not obj.isValid():
                 raise Failed(obj.getStatusString())

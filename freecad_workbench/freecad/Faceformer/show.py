@@ -13,7 +13,7 @@ from . import preferences
 def show_solid() -> None:
     """Turns the view so that a new solid is seen as one, with nothing selected in front of it."""
     FreeCADGui.Selection.clearSelection()
-    view = _view()
+    view = view_3d()
     if view is not None and preferences.turn_view():
         view.viewIsometric()
         view.fitAll()
@@ -31,13 +31,19 @@ def show_drawing(sketch: Any) -> None:
     """Selects a new drawing and looks straight at it."""
     FreeCADGui.Selection.clearSelection()
     FreeCADGui.Selection.addSelection(sketch)
-    view = _view()
+    view = view_3d()
     if view is not None and preferences.turn_view():
         view.viewTop()
         view.fitAll()
 
 
-def _view() -> Any | None:
+def view_3d() -> Any | None:
+    """The active 3D view, else the first one of the active document, else None."""
     document = FreeCADGui.ActiveDocument
-    view = document.ActiveView if document is not None else None
-    return view if hasattr(view, "viewIsometric") else None
+    if document is None:
+        return None
+    view = document.ActiveView
+    if hasattr(view, "getSceneGraph"):
+        return view
+    views = document.mdiViewsOfType("Gui::View3DInventor")
+    return views[0] if views else None

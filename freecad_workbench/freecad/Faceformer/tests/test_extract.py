@@ -99,6 +99,14 @@ class ExtractTest(DocumentTest):
         with self.assertRaisesRegex(BadInput, "Wireframe from Solid"):
             extract(Part.makeBox(1, 1, 1))
 
+    def test_a_filled_draft_wire_is_a_drawing(self):
+        import Draft
+
+        wire = Draft.make_wire([V(0, 0), V(4, 0), V(4, 3)], closed=True, face=True)
+        self.document.recompute()
+        self.assertEqual(len(wire.Shape.Faces), 1)
+        self.assertEqual(len(extract(wire).edges), 3)
+
     def test_coordinates_that_are_no_numbers_are_refused_by_name(self):
         sketch = self.sketch()
         sketch.Placement = FreeCAD.Placement(V(math.nan, 0, 0), FreeCAD.Rotation())

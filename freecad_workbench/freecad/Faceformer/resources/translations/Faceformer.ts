@@ -59,7 +59,7 @@
       <translation type="unfinished"></translation>
     </message>
     <message>
-      <source>As drawn</source>
+      <source>As Drawn</source>
       <translation type="unfinished"></translation>
     </message>
     <message>
@@ -136,10 +136,6 @@
     </message>
     <message>
       <source>Flip Depth</source>
-      <translation type="unfinished"></translation>
-    </message>
-    <message>
-      <source>Flip depth</source>
       <translation type="unfinished"></translation>
     </message>
     <message>
