@@ -13,6 +13,7 @@ mod ellipse;
 mod error;
 mod format;
 mod graph;
+mod grid;
 mod model;
 mod recognise;
 mod report;

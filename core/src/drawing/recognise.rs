@@ -75,7 +75,7 @@ fn arc(points: &[DVec2], closed: bool, tolerance: f64) -> Option<EllipseArc> {
     if fit.residual.is_nan() || fit.residual > tolerance {
         return None;
     }
-    let mut arc = EllipseArc {
+    let ellipse = EllipseArc {
         center: fit.center,
         major: fit.major,
         ratio: fit.ratio,
@@ -84,40 +84,42 @@ fn arc(points: &[DVec2], closed: bool, tolerance: f64) -> Option<EllipseArc> {
         residual: fit.residual,
         uncertainty: fit.uncertainty,
     };
-    arc.start = arc.parameter(*points.first()?);
-    let mut t = arc.start;
-    let (mut low, mut high) = (0f64, 0f64);
-    // How far a parameter may run back for points that are off by the tolerance.
-    let slack = tolerance / (arc.major.length() * arc.ratio);
-    for p in &points[1..] {
-        let next = arc.parameter(*p);
-        let step = (next - t + PI).rem_euclid(TAU) - PI;
-        if step.abs() > LONGEST_STEP {
-            return None;
+    ellipse.along(points, closed, tolerance)
+}
+
+impl EllipseArc {
+    /// The arc of the same ellipse that the points run along from the first to the last, without
+    /// turning back by more than `tolerance` or stepping too far.
+    pub(super) fn along(mut self, points: &[DVec2], closed: bool, tolerance: f64) -> Option<Self> {
+        self.start = self.parameter(*points.first()?);
+        self.sweep = 0.0;
+        // How far a parameter may run back for points that are off by the tolerance.
+        let slack = tolerance / (self.major.length() * self.ratio);
+        let (mut t, mut low, mut high) = (self.start, 0f64, 0f64);
+        for p in &points[1..] {
+            let next = self.parameter(*p);
+            let step = (next - t + PI).rem_euclid(TAU) - PI;
+            if step.abs() > LONGEST_STEP {
+                return None;
+            }
+            t = next;
+            self.sweep += step;
+            low = low.min(self.sweep);
+            high = high.max(self.sweep);
+            if (low < -slack || self.sweep < high - slack)
+                && (high > slack || self.sweep > low + slack)
+            {
+                return None;
+            }
         }
-        t = next;
-        arc.sweep += step;
-        low = low.min(arc.sweep);
-        high = high.max(arc.sweep);
-        let turned_back = if arc.sweep.abs() <= slack {
-            false
-        } else if arc.sweep > 0.0 {
-            low < -slack || arc.sweep < high - slack
-        } else {
-            high > slack || arc.sweep > low + slack
-        };
-        if turned_back {
-            return None;
+        if closed {
+            if (self.sweep.abs() / TAU - 1.0).abs() > 0.01 {
+                return None;
+            }
+            self.sweep = TAU.copysign(self.sweep);
         }
+        (self.sweep.abs() <= TAU && self.sweep != 0.0).then_some(self)
     }
-    if closed {
-        let turns = arc.sweep / TAU;
-        if (turns.abs() - 1.0).abs() > 0.01 {
-            return None;
-        }
-        arc.sweep = TAU.copysign(arc.sweep);
-    }
-    (arc.sweep.abs() <= TAU && arc.sweep != 0.0).then_some(arc)
 }
 
 #[cfg(test)]

@@ -24,6 +24,8 @@ pub enum Severity {
 pub enum FindingKind {
     /// An input edge without length was dropped.
     ZeroLength,
+    /// Ends of input edges that missed each other were joined.
+    Snapped,
     /// Input edges that lie on each other became one.
     Duplicate,
     /// Input edges that continue each other became one.
