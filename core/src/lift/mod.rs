@@ -1,9 +1,99 @@
 //! Lifting: from a drawing with faces to depth.
+//!
+//! 1. [`directions`] reads dominant directions off the drawing,
+//! 2. the rows of the depth problem are linear in the depths and the planes of faces ([`system`]),
+//! 3. they are solved as least squares if they agree, in the L1 norm if not,
+//! 4. every plane and cylinder gets its surface.
 
+mod circle;
+mod conflicts;
 pub mod directions;
 mod error;
+mod metric;
 mod model;
+mod rows;
+mod sheet;
+mod solve;
+mod surfaces;
 pub mod system;
+#[cfg(test)]
+mod testing;
+#[cfg(test)]
+mod tests;
 
 pub use error::LiftError;
+pub use metric::depth_error;
 pub use model::{Conflict, Lift, LiftMethod, LiftOptions, Surface};
+
+use crate::drawing::Drawing;
+use crate::identify::Face;
+use crate::{Progress, Result, Stage};
+use directions::Directions;
+use sheet::Sheet;
+use solve::Solved;
+
+/// Recovers the depth of every vertex and the surface of every planar and cylindrical face.
+///
+/// An orthographic drawing has two readings that are mirror images in depth (Necker reversal). The
+/// default is the model seen from above: of the dominant directions, the one that is most vertical
+/// on the page has its upper end towards the viewer. [`LiftOptions::flip`] takes the other.
+///
+/// Faces need not be right: rows that contradict the others are dropped, and
+/// [`Lift::conflicts`] names the faces.
+///
+/// # Errors
+/// [`LiftError`]: a perspective drawing, no directions, a degenerate view, or vertices whose depth
+/// nothing fixes. [`Error::Cancelled`](crate::Error::Cancelled) if `progress` asked to stop.
+pub fn lift(
+    drawing: &Drawing,
+    faces: &[Face],
+    options: &LiftOptions,
+    progress: Progress<'_>,
+) -> Result<Lift> {
+    progress.report(Stage::Lift, 0.0)?;
+    let readings = Directions::candidates(drawing)?;
+    let mut best: Option<(Directions, Lift, usize)> = None;
+    for (i, reading) in readings.iter().enumerate() {
+        progress.report(Stage::Lift, 0.2 + 0.8 * i as f64 / readings.len() as f64)?;
+        let reading = if options.flip {
+            reading.clone().reversed()
+        } else {
+            reading.clone()
+        };
+        let sheet = Sheet::new(drawing, faces, &reading);
+        let solved = match solve::solve(&sheet) {
+            Ok(solved) => solved,
+            Err(error) if best.is_none() => return Err(error.into()),
+            Err(_) => continue,
+        };
+        let dropped = solved.dropped();
+        // A later reading must be much better to be believed.
+        if best.as_ref().is_none_or(|b| 2 * dropped < b.2) {
+            let lift = finish(&sheet, &solved);
+            best = Some((reading, lift, dropped));
+        }
+        if best.as_ref().is_some_and(|b| b.2 == 0) {
+            break;
+        }
+    }
+    progress.report(Stage::Lift, 1.0)?;
+    best.map(|b| b.1)
+        .ok_or_else(|| LiftError::NoDirections("no reading".into()).into())
+}
+
+fn finish(sheet: &Sheet<'_>, solved: &Solved) -> Lift {
+    let count = sheet.drawing.vertices.len();
+    let mean = (0..count).map(|v| solved.depth(v)).sum::<f64>() / count.max(1) as f64;
+    let depths: Vec<f64> = (0..count).map(|v| solved.depth(v) - mean).collect();
+    let surfaces: Vec<Surface> = (0..sheet.faces.len())
+        .map(|f| surfaces::surface(sheet, solved, f).lowered(mean))
+        .collect();
+    Lift {
+        conflicts: conflicts::conflicts(sheet, &depths, &surfaces),
+        depths,
+        surfaces,
+        directions: sheet.directions.axes.iter().map(|a| a.direction).collect(),
+        method: solved.method,
+        residual: solved.residual(),
+    }
+}

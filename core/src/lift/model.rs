@@ -35,6 +35,29 @@ pub enum Surface {
     Unknown,
 }
 
+impl Surface {
+    /// The surface moved away from the viewer by `depth`.
+    pub(super) fn lowered(self, depth: f64) -> Self {
+        let down = DVec3::new(0.0, 0.0, depth);
+        match self {
+            Self::Plane { origin, normal } => Self::Plane {
+                origin: origin - down,
+                normal,
+            },
+            Self::Cylinder {
+                origin,
+                axis,
+                radius,
+            } => Self::Cylinder {
+                origin: origin - down,
+                axis,
+                radius,
+            },
+            Self::Unknown => Self::Unknown,
+        }
+    }
+}
+
 /// How the depths were found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]

@@ -23,7 +23,7 @@ use glam::{DMat3, DVec3};
 use super::LiftError;
 use crate::drawing::{Drawing, Projection};
 
-use evidence::AGREE;
+pub(crate) use evidence::AGREE;
 
 /// One direction and what supports it.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,0 +1,187 @@
+//! Surfaces of faces from lifted depths.
+
+use glam::{DMat3, DVec2, DVec3};
+
+use super::Surface;
+use super::circle::circle_fit;
+use super::sheet::Sheet;
+use super::solve::Solved;
+use crate::drawing::SurfaceKind;
+
+/// Largest distance, relative to the drawing's size, of a boundary point from a cylinder.
+const OFF_CYLINDER: f64 = 1e-3;
+
+/// Radians around a cylinder below which its outline fixes the radius better than a circle through
+/// its points.
+const NARROW: f64 = 0.7;
+
+pub(super) fn surface(sheet: &Sheet<'_>, solved: &Solved, face: usize) -> Surface {
+    match sheet.faces[face].kind {
+        SurfaceKind::Plane => plane(sheet, solved, face).unwrap_or(Surface::Unknown),
+        SurfaceKind::Cylinder => cylinder(sheet, solved, face).unwrap_or(Surface::Unknown),
+        _ => Surface::Unknown,
+    }
+}
+
+fn vertex(sheet: &Sheet<'_>, solved: &Solved, v: usize) -> DVec3 {
+    sheet.drawing.vertices[v].extend(solved.depth(v))
+}
+
+fn plane(sheet: &Sheet<'_>, solved: &Solved, face: usize) -> Option<Surface> {
+    if let Some([a, b, c]) = solved.plane(face) {
+        return Some(Surface::Plane {
+            origin: sheet.middles[face].extend(-c),
+            normal: DVec3::new(a, b, 1.0).normalize(),
+        });
+    }
+    let points: Vec<DVec3> = sheet.corners[face]
+        .iter()
+        .map(|&v| vertex(sheet, solved, v))
+        .collect();
+    let (origin, normal) = best_plane(&points)?;
+    Some(Surface::Plane { origin, normal })
+}
+
+/// Plane through the mean of points, normal to the direction of their smallest spread; `None` if
+/// they lie on a line.
+fn best_plane(points: &[DVec3]) -> Option<(DVec3, DVec3)> {
+    let origin = points.iter().sum::<DVec3>() / points.len() as f64;
+    let mut spread = DMat3::ZERO;
+    for p in points {
+        let d = *p - origin;
+        spread += DMat3::from_cols(d * d.x, d * d.y, d * d.z);
+    }
+    // The adjugate of a matrix of rank two is the projector on its null vector.
+    let (x, y, z) = (spread.x_axis, spread.y_axis, spread.z_axis);
+    let rows = [y.cross(z), z.cross(x), x.cross(y)];
+    let longest = rows
+        .into_iter()
+        .max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()))?;
+    let scale = x.x + y.y + z.z;
+    (longest.length() > 1e-8 * scale * scale).then(|| (origin, longest.normalize()))
+}
+
+/// Axis, then radius and centre from the boundary seen along the axis.
+fn cylinder(sheet: &Sheet<'_>, solved: &Solved, face: usize) -> Option<Surface> {
+    let axis = cylinder_axis(sheet, solved, face)?;
+    let u = axis.any_orthonormal_vector();
+    let w = axis.cross(u);
+    let boundary = boundary_points(sheet, solved, face);
+    let flat: Vec<DVec2> = boundary
+        .iter()
+        .map(|p| DVec2::new(p.dot(u), p.dot(w)))
+        .collect();
+    // On an outline the radius is at right angles to the view.
+    let side = axis.cross(DVec3::Z).try_normalize()?;
+    let side = DVec2::new(side.dot(u), side.dot(w));
+    let through = circle_fit(flat.iter().copied());
+    let by_outline = outlines(sheet, face).filter_map(|v| {
+        let p = vertex(sheet, solved, v);
+        touching(&flat, DVec2::new(p.dot(u), p.dot(w)), side)
+    });
+    let narrow = through.is_none_or(|(center, _)| arc_width(&flat, center) < NARROW);
+    let mut found: Vec<(DVec2, f64)> = through.into_iter().collect();
+    if narrow {
+        found.extend(by_outline);
+    }
+    let worst = |(center, radius): &(DVec2, f64)| {
+        let off = flat.iter().map(|p| (p.distance(*center) - radius).abs());
+        off.fold(0.0, f64::max)
+    };
+    let (center, radius) = found
+        .into_iter()
+        .min_by(|a, b| worst(a).total_cmp(&worst(b)))?;
+    (worst(&(center, radius)) < OFF_CYLINDER * sheet.size).then(|| {
+        let middle = boundary.iter().sum::<DVec3>() / boundary.len() as f64;
+        Surface::Cylinder {
+            origin: u * center.x + w * center.y + axis * middle.dot(axis),
+            axis,
+            radius,
+        }
+    })
+}
+
+/// Direction of the straight edges of a cylinder, else the normal of a circle that bounds it.
+fn cylinder_axis(sheet: &Sheet<'_>, solved: &Solved, face: usize) -> Option<DVec3> {
+    let edges = sheet.edges_of(face);
+    let known = edges.iter().find_map(|&e| sheet.edge_axis[e]);
+    let around = edges.iter().find_map(|&e| sheet.circles[e].map(|c| c.0));
+    if let Some(k) = known.or(around) {
+        return Some(sheet.axis(k));
+    }
+    let mut sum = DVec3::ZERO;
+    for &e in edges.iter().filter(|&&e| sheet.is_straight(e)) {
+        let [a, b] = sheet.drawing.edges[e].v.map(|v| vertex(sheet, solved, v));
+        let d = b - a;
+        sum += if d.dot(sum) < 0.0 { -d } else { d };
+    }
+    sum.try_normalize()
+}
+
+/// Vertices of the boundary, and the points of its arcs that lie in known planes.
+fn boundary_points(sheet: &Sheet<'_>, solved: &Solved, face: usize) -> Vec<DVec3> {
+    let mut points: Vec<DVec3> = sheet.corners[face]
+        .iter()
+        .map(|&v| vertex(sheet, solved, v))
+        .collect();
+    for &e in sheet.edges_of(face) {
+        if sheet.is_straight(e) {
+            continue;
+        }
+        let edge = &sheet.drawing.edges[e];
+        let inner = edge.points.get(1..edge.points.len() - 1).unwrap_or(&[]);
+        let start = vertex(sheet, solved, edge.v[0]);
+        let normal = match sheet.circles[e] {
+            Some((k, _)) => Some(sheet.axis(k)),
+            None => sheet.neighbours(e).iter().find_map(|&f| {
+                let [a, b, _] = solved.plane(f)?;
+                Some(DVec3::new(a, b, 1.0))
+            }),
+        };
+        if let Some(n) = normal {
+            points.extend(inner.iter().map(|p| {
+                let d = *p - start.truncate();
+                p.extend(start.z - d.dot(n.truncate()) / n.z)
+            }));
+        }
+    }
+    points
+}
+
+/// Vertices on straight edges between two curved faces: outlines, as far as a drawing tells.
+fn outlines<'a>(sheet: &'a Sheet<'_>, face: usize) -> impl Iterator<Item = usize> + 'a {
+    sheet
+        .edges_of(face)
+        .iter()
+        .filter(|&&e| {
+            sheet.is_straight(e) && sheet.neighbours(e).iter().all(|&f| !sheet.is_planar(f))
+        })
+        .map(|&e| sheet.drawing.edges[e].v[0])
+}
+
+/// Circle through `p` whose centre lies along `side` from it, closest to the other points: a point
+/// q on it has `|q - p|^2 = 2 r side.(q - p)`.
+fn touching(points: &[DVec2], p: DVec2, side: DVec2) -> Option<(DVec2, f64)> {
+    let (mut top, mut bottom) = (0.0, 0.0);
+    for q in points.iter().map(|q| *q - p) {
+        let s = 2.0 * side.dot(q);
+        top += s * q.length_squared();
+        bottom += s * s;
+    }
+    let r = top / bottom;
+    r.is_finite().then(|| (p + side * r, r.abs()))
+}
+
+/// Angle that points take around a centre: a full turn less the widest gap.
+fn arc_width(points: &[DVec2], center: DVec2) -> f64 {
+    let mut angles: Vec<f64> = points.iter().map(|p| (*p - center).to_angle()).collect();
+    angles.sort_by(f64::total_cmp);
+    let around = angles.first().map(|a| a + std::f64::consts::TAU);
+    let next = angles.iter().skip(1).copied().chain(around);
+    let gap = angles
+        .iter()
+        .zip(next)
+        .map(|(a, b)| b - a)
+        .fold(0.0, f64::max);
+    std::f64::consts::TAU - gap
+}
