@@ -11,6 +11,7 @@ mod model;
 mod orient;
 pub mod postprocess;
 mod registry;
+pub mod rotation;
 mod shortest;
 #[cfg(test)]
 pub(crate) mod testing;

@@ -1,0 +1,17 @@
+//! The rotation engine: scores for triples of edges, a rotation system decoded from them, loops
+//! as its orbits, and faces as groups of loops that lie on one surface.
+
+mod cuts;
+mod cycles;
+mod decode;
+mod orders;
+#[cfg(test)]
+mod samples;
+mod scorer;
+mod system;
+mod triples;
+
+pub use decode::Field;
+pub use scorer::TripleScorer;
+pub use system::RotationSystem;
+pub use triples::Triples;
