@@ -15,3 +15,6 @@ pub use decode::Field;
 pub use scorer::TripleScorer;
 pub use system::RotationSystem;
 pub use triples::Triples;
+mod crossing;
+mod ends;
+pub mod features;
