@@ -6,6 +6,7 @@
 
 mod error;
 mod faces;
+mod kinds;
 pub mod metrics;
 mod model;
 mod orient;

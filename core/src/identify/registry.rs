@@ -5,9 +5,8 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Engine, Identification, IdentifyError, ShortestEngine, VarleyEngine};
-use crate::drawing::Drawing;
-use crate::{Progress, Result};
+use super::rotation::RotationEngine;
+use super::{Engine, IdentifyError, ShortestEngine, VarleyEngine};
 
 /// Names of the engines (design, section 3).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
@@ -68,20 +67,7 @@ pub fn engine(kind: EngineKind) -> Box<dyn Engine> {
     match kind {
         EngineKind::Shortest => Box::new(ShortestEngine::default()),
         EngineKind::Varley => Box::new(VarleyEngine),
-        EngineKind::Rotation => Box::new(Absent(kind)),
-    }
-}
-
-/// An engine that is not there yet.
-struct Absent(EngineKind);
-
-impl Engine for Absent {
-    fn name(&self) -> &'static str {
-        self.0.name()
-    }
-
-    fn identify(&self, _: &Drawing, _: Progress<'_>) -> Result<Identification> {
-        Err(IdentifyError::UnknownEngine(self.0.to_string()).into())
+        EngineKind::Rotation => Box::new(RotationEngine::default()),
     }
 }
 

@@ -10,7 +10,7 @@ use crate::drawing::Graph;
 /// around it. Which ends belong together shows in the drawing: tangents oppose each other and the
 /// curvature goes on. Two straight lines that cross are no such case: planar faces turn there.
 #[derive(Debug)]
-pub struct Crossings {
+pub(super) struct Crossings {
     /// Likelihood by vertex and by pairing: first end with the second, third, fourth.
     pairings: Vec<[f64; 3]>,
 }
@@ -24,7 +24,7 @@ const NONE: f64 = 3.0;
 
 impl Crossings {
     /// Looks at every vertex of degree 4; `size` is the drawing's.
-    pub fn new(graph: &Graph, ends: &[End], size: f64) -> Self {
+    pub(super) fn new(graph: &Graph, ends: &[End], size: f64) -> Self {
         let pairings = (0..graph.vertex_count())
             .map(|v| match graph.leaving(v) {
                 [a, b, c, d] => {
@@ -35,7 +35,11 @@ impl Crossings {
                         }
                         through(&x[0], &x[1], size) + through(&y[0], &y[1], size)
                     };
-                    let costs = [cost([a, b], [c, d]), cost([a, c], [b, d]), cost([a, d], [b, c])];
+                    let costs = [
+                        cost([a, b], [c, d]),
+                        cost([a, c], [b, d]),
+                        cost([a, d], [b, c]),
+                    ];
                     let weights = costs.map(|c| (-c).exp());
                     let sum = weights.iter().sum::<f64>() + (-NONE).exp();
                     weights.map(|w| w / sum)
@@ -48,7 +52,7 @@ impl Crossings {
 
     /// Likelihood that the ends at positions `i` and `j` of the vertex are opposite, and that they
     /// are neighbours; both 0 if nothing speaks for a crossing.
-    pub fn opposite_and_adjacent(&self, vertex: usize, i: usize, j: usize) -> (f64, f64) {
+    pub(super) fn opposite_and_adjacent(&self, vertex: usize, i: usize, j: usize) -> (f64, f64) {
         let pairings = &self.pairings[vertex];
         // Complementary pairs are the same pairing: {1, 2} goes with {0, 3}.
         let k = match (i.min(j), i.max(j)) {
@@ -65,7 +69,11 @@ impl Crossings {
 
 /// Cost of one curve running through both ends.
 fn through(a: &End, b: &End, size: f64) -> f64 {
-    let angle = a.tangent.perp_dot(b.tangent).atan2(-a.tangent.dot(b.tangent)).abs();
+    let angle = a
+        .tangent
+        .perp_dot(b.tangent)
+        .atan2(-a.tangent.dot(b.tangent))
+        .abs();
     // Leaving the vertex both ways, one curve turns left by as much as it turns right.
     let jump = (a.curvature + b.curvature).abs();
     let bend = jump / (a.curvature.abs() + b.curvature.abs() + 0.1 / size);

@@ -1,7 +1,7 @@
 //! Parts of a component that could be turned over as a whole, and what that costs.
 
-use super::decode::Field;
 use super::RotationSystem;
+use super::decode::Field;
 use crate::drawing::{CoEdge, Graph};
 
 /// The parts that a maximum spanning forest falls into when one of its edges is cut.
@@ -10,7 +10,7 @@ use crate::drawing::{CoEdge, Graph};
 /// part and of no others. Edges that hold their ends together stiffly are in the forest, so the
 /// cheap parts to reverse are among these.
 #[derive(Debug)]
-pub struct Cuts {
+pub(super) struct Cuts {
     /// Vertices so that each part is a contiguous piece.
     order: Vec<usize>,
     /// Piece of `order` below each vertex, the vertex itself first.
@@ -22,7 +22,7 @@ pub struct Cuts {
 
 impl Cuts {
     /// Finds the parts and prices them. Time `O(E (log E + depth of the forest))`.
-    pub fn new(field: &Field<'_>, system: &RotationSystem) -> Self {
+    pub(super) fn new(field: &Field<'_>, system: &RotationSystem) -> Self {
         let graph = field.graph();
         let stiffness: Vec<f64> = (0..graph.edge_count())
             .map(|e| field.stiffness(system, e))
@@ -34,26 +34,26 @@ impl Cuts {
 
     /// The vertex whose part is cheapest to reverse, and the cost in log-odds; `None` if no
     /// component has two vertices.
-    pub fn cheapest(&self) -> Option<(usize, f64)> {
+    pub(super) fn cheapest(&self) -> Option<(usize, f64)> {
         self.all().min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
     /// Every part by its first vertex, with its cost in log-odds.
-    pub fn all(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+    pub(super) fn all(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
         (0..self.parent.len())
             .filter(|&v| self.parent[v].is_some())
             .map(|v| (v, self.cost[v]))
     }
 
     /// Vertices of the part below a vertex.
-    pub fn part(&self, vertex: usize) -> &[usize] {
+    pub(super) fn part(&self, vertex: usize) -> &[usize] {
         let (begin, end) = self.piece[vertex];
         &self.order[begin..end]
     }
 
     /// Cost of the cheapest part that separates the two ends of an edge, in log-odds; infinite if
     /// none does.
-    pub fn between(&self, u: usize, v: usize) -> f64 {
+    pub(super) fn between(&self, u: usize, v: usize) -> f64 {
         let mut cheapest = f64::INFINITY;
         self.climb(u, v, |x| cheapest = cheapest.min(self.cost[x]));
         cheapest

@@ -6,14 +6,14 @@ use super::Triples;
 use crate::drawing::{CoEdge, Graph};
 
 /// Length that stands for "none, or longer than is told apart".
-pub const LONG: u8 = 15;
+pub(super) const LONG: u8 = 15;
 
 /// Number of edges of the shortest cycle through each triple that passes the ends of the middle
 /// edge once; [`LONG`] where there is none that short.
 ///
 /// One breadth-first search for each co-edge after an edge: time `O(E (V + E))` for bounded
 /// degrees.
-pub fn shortest_cycles(graph: &Graph, triples: &Triples) -> Vec<u8> {
+pub(super) fn shortest_cycles(graph: &Graph, triples: &Triples) -> Vec<u8> {
     let mut search = Search::new(graph);
     let mut lengths = vec![LONG; triples.len()];
     for edge in 0..graph.edge_count() {
@@ -21,7 +21,10 @@ pub fn shortest_cycles(graph: &Graph, triples: &Triples) -> Vec<u8> {
         let (u, v) = (graph.origin(through), graph.head(through));
         for after in graph.leaving(v) {
             let mut searched = false;
-            for t in triples.of_edge(edge).filter(|&t| triples.after(t) == *after) {
+            for t in triples
+                .of_edge(edge)
+                .filter(|&t| triples.after(t) == *after)
+            {
                 let before = triples.before(t);
                 lengths[t] = if before.edge() == edge || after.edge() == edge {
                     // A closed edge: alone it is a cycle, with others its vertex comes twice.

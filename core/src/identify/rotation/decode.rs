@@ -114,7 +114,12 @@ impl<'a> Field<'a> {
     }
 
     /// The best order at a vertex given all others.
-    pub fn best_order(&self, system: &RotationSystem, vertex: usize, fixed: &[bool]) -> Best {
+    pub(super) fn best_order(
+        &self,
+        system: &RotationSystem,
+        vertex: usize,
+        fixed: &[bool],
+    ) -> Best {
         let current = system.order(self.graph, vertex);
         self.gains(system, vertex, fixed).best(Some(&current))
     }

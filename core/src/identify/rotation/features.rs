@@ -1,9 +1,9 @@
 //! What speaks for and against a triple of edges, as numbers.
 
+use super::Triples;
 use super::crossing::Crossings;
 use super::cycles::{LONG, shortest_cycles};
 use super::ends::{End, ends};
-use super::Triples;
 use crate::drawing::{CoEdge, Drawing, Graph};
 
 /// Names of the features, in the order of a row.
@@ -53,12 +53,23 @@ pub fn features(drawing: &Drawing, graph: &Graph, triples: &Triples) -> Vec<Row>
     let ends = ends(drawing);
     let cycles = shortest_cycles(graph, triples);
     let crossings = Crossings::new(graph, &ends, size);
-    let context = Context { drawing, graph, ends: &ends, crossings: &crossings, size };
+    let context = Context {
+        drawing,
+        graph,
+        ends: &ends,
+        crossings: &crossings,
+        size,
+    };
     let mut rows = Vec::with_capacity(triples.len());
     for e in 0..graph.edge_count() {
         let block = triples.of_edge(e);
         let shortest = |f: &dyn Fn(usize) -> bool| {
-            block.clone().filter(|&t| f(t)).map(|t| cycles[t]).min().unwrap_or(LONG)
+            block
+                .clone()
+                .filter(|&t| f(t))
+                .map(|t| cycles[t])
+                .min()
+                .unwrap_or(LONG)
         };
         let all = shortest(&|_| true);
         for t in block.clone() {
@@ -75,7 +86,7 @@ pub fn features(drawing: &Drawing, graph: &Graph, triples: &Triples) -> Vec<Row>
             row[19] = excess(all);
             let first = excess(shortest(&|x| triples.before(x) == before));
             let second = excess(shortest(&|x| triples.after(x) == after));
-            row[20] = first+second;
+            row[20] = first + second;
             row[21] = first.max(second);
             rows.push(row);
         }
@@ -120,7 +131,10 @@ impl Context<'_> {
         let smooth_second = smooth(n, m);
         row[25] = smooth_first.max(smooth_second) - smooth_first.min(smooth_second);
         row[26] = smooth_first.min(smooth_second);
-        for (at, other, this, s) in [(before, edge, p, smooth_first), (after, edge.mate(), n, smooth_second)] {
+        for (at, other, this, s) in [
+            (before, edge, p, smooth_first),
+            (after, edge.mate(), n, smooth_second),
+        ] {
             let v = self.graph.origin(at);
             if self.graph.degree(v) < 4 {
                 continue;
@@ -149,11 +163,13 @@ impl Context<'_> {
         if a.v.iter().any(|v| b.v.contains(v)) {
             return false;
         }
-        a.points.windows(2).any(|s| b.points.windows(2).any(|t| {
-            let side = |o: glam::DVec2, d: glam::DVec2, x: glam::DVec2| (d - o).perp_dot(x - o);
-            side(s[0], s[1], t[0]) * side(s[0], s[1], t[1]) < 0.0
-                && side(t[0], t[1], s[0]) * side(t[0], t[1], s[1]) < 0.0
-        }))
+        a.points.windows(2).any(|s| {
+            b.points.windows(2).any(|t| {
+                let side = |o: glam::DVec2, d: glam::DVec2, x: glam::DVec2| (d - o).perp_dot(x - o);
+                side(s[0], s[1], t[0]) * side(s[0], s[1], t[1]) < 0.0
+                    && side(t[0], t[1], s[0]) * side(t[0], t[1], s[1]) < 0.0
+            })
+        })
     }
 }
 

@@ -1,9 +1,14 @@
 //! The rotation engine: scores for triples of edges, a rotation system decoded from them, loops
 //! as its orbits, and faces as groups of loops that lie on one surface.
 
+mod crossing;
 mod cuts;
 mod cycles;
 mod decode;
+mod ends;
+mod engine;
+pub mod features;
+mod hand;
 mod orders;
 #[cfg(test)]
 mod samples;
@@ -12,9 +17,8 @@ mod system;
 mod triples;
 
 pub use decode::Field;
+pub use engine::{MAX_DEGREE, RotationEngine};
+pub use hand::HandScorer;
 pub use scorer::TripleScorer;
 pub use system::RotationSystem;
 pub use triples::Triples;
-mod crossing;
-mod ends;
-pub mod features;

@@ -7,7 +7,7 @@ const EXACT: usize = 6;
 
 /// What one place after another is worth: entry `(i, j)` if `j` follows `i`.
 #[derive(Debug, Clone)]
-pub struct Gains {
+pub(super) struct Gains {
     degree: usize,
     follows: Vec<f64>,
     /// Pairs of positions that are the two ends of one closed edge, see [`Gains::add_closed`].
@@ -16,20 +16,20 @@ pub struct Gains {
 
 /// The best order and how far it is ahead.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Best {
+pub(super) struct Best {
     /// Positions in cyclic order, beginning with 0.
-    pub order: Vec<usize>,
+    pub(super) order: Vec<usize>,
     /// Total gain.
-    pub gain: f64,
+    pub(super) gain: f64,
     /// Gain minus that of the second best order; infinite if there is only one.
-    pub margin: f64,
+    pub(super) margin: f64,
     /// The second best order, if there is one.
-    pub second: Option<Vec<usize>>,
+    pub(super) second: Option<Vec<usize>>,
 }
 
 impl Gains {
     /// No gains for orders of `degree` places.
-    pub fn new(degree: usize) -> Self {
+    pub(super) fn new(degree: usize) -> Self {
         Self {
             degree,
             follows: vec![0.0; degree * degree],
@@ -38,19 +38,19 @@ impl Gains {
     }
 
     /// Adds to the gain of `j` after `i`.
-    pub fn add(&mut self, i: usize, j: usize, gain: f64) {
+    pub(super) fn add(&mut self, i: usize, j: usize, gain: f64) {
         self.follows[i * self.degree + j] += gain;
     }
 
     /// Adds an edge with both ends, `i` and `k`, at this vertex: it gains `table[before, after]`
     /// with the place before `i` and the one after `k`, and the same with the ends swapped
     /// (`before` the place after `i`, `after` the one before `k`). The table has `degree` columns.
-    pub fn add_closed(&mut self, i: usize, k: usize, table: Vec<f64>) {
+    pub(super) fn add_closed(&mut self, i: usize, k: usize, table: Vec<f64>) {
         self.closed.push((i, k, table));
     }
 
     /// Gain of one order.
-    pub fn of(&self, order: &[usize]) -> f64 {
+    pub(super) fn of(&self, order: &[usize]) -> f64 {
         let n = self.degree;
         let mut total = 0.0;
         for (k, &i) in order.iter().enumerate() {
@@ -72,7 +72,7 @@ impl Gains {
 
     /// The best order: of all up to six places, beyond that the best that moving single places
     /// reaches from a greedy start and from `current`.
-    pub fn best(&self, current: Option<&[usize]>) -> Best {
+    pub(super) fn best(&self, current: Option<&[usize]>) -> Best {
         if self.degree <= EXACT {
             return self.best_of_all();
         }
@@ -179,7 +179,7 @@ fn rotate(mut order: Vec<usize>) -> Vec<usize> {
 }
 
 /// All cyclic orders of up to six places, each beginning with 0.
-pub fn cyclic_orders(degree: usize) -> &'static [Vec<usize>] {
+pub(super) fn cyclic_orders(degree: usize) -> &'static [Vec<usize>] {
     static TABLE: OnceLock<Vec<Vec<Vec<usize>>>> = OnceLock::new();
     let table = TABLE.get_or_init(|| {
         let mut table = vec![vec![Vec::new()], vec![vec![0]]];
@@ -201,7 +201,7 @@ pub fn cyclic_orders(degree: usize) -> &'static [Vec<usize>] {
 }
 
 /// Whether all orders of this degree are tried.
-pub fn is_exact(degree: usize) -> bool {
+pub(super) fn is_exact(degree: usize) -> bool {
     degree <= EXACT
 }
 

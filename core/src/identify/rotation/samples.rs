@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 use crate::drawing::{Curve2, Drawing, Edge, Projection};
 
 /// A drawing of 3D points joined by straight edges, seen from a generic direction.
-pub fn wireframe(points: &[DVec3], edges: &[[usize; 2]]) -> Drawing {
+pub(super) fn wireframe(points: &[DVec3], edges: &[[usize; 2]]) -> Drawing {
     let view = |p: DVec3| DVec2::new(0.8 * p.x - 0.5 * p.y, 0.2 * p.x + 0.35 * p.y + 0.9 * p.z);
     let vertices: Vec<DVec2> = points.iter().map(|p| view(*p)).collect();
     let edges = edges
@@ -27,7 +27,7 @@ pub fn wireframe(points: &[DVec3], edges: &[[usize; 2]]) -> Drawing {
 }
 
 /// A cube: 8 vertices, 12 edges, 6 loops.
-pub fn cube() -> Drawing {
+pub(super) fn cube() -> Drawing {
     let corner = |k: usize| DVec3::new((k & 1) as f64, (k >> 1 & 1) as f64, (k >> 2) as f64);
     let points: Vec<DVec3> = (0..8).map(corner).collect();
     let mut edges = Vec::new();
@@ -42,7 +42,7 @@ pub fn cube() -> Drawing {
 }
 
 /// A pyramid over a square: a vertex of degree 4.
-pub fn pyramid() -> Drawing {
+pub(super) fn pyramid() -> Drawing {
     let points = [
         DVec3::ZERO,
         DVec3::X,
@@ -64,12 +64,12 @@ pub fn pyramid() -> Drawing {
 }
 
 /// One closed edge.
-pub fn circle() -> Drawing {
+pub(super) fn circle() -> Drawing {
     arcs(&[[0, 0]], &[(0.0, std::f64::consts::TAU)])
 }
 
 /// Two arcs that make a circle: two vertices of degree 2.
-pub fn two_arcs() -> Drawing {
+pub(super) fn two_arcs() -> Drawing {
     let pi = std::f64::consts::PI;
     arcs(&[[0, 1], [1, 0]], &[(0.0, pi), (pi, pi)])
 }

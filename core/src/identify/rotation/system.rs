@@ -56,10 +56,7 @@ impl RotationSystem {
     /// Reverses the order at a vertex.
     pub fn reverse(&mut self, graph: &Graph, vertex: usize) {
         for c in graph.leaving(vertex) {
-            std::mem::swap(
-                &mut self.next[c.index()],
-                &mut self.previous[c.index()],
-            );
+            std::mem::swap(&mut self.next[c.index()], &mut self.previous[c.index()]);
         }
     }
 

@@ -1,0 +1,111 @@
+//! The engine: score, decode, read off loops.
+
+use super::cuts::Cuts;
+use super::{Field, HandScorer, TripleScorer, Triples};
+use crate::drawing::{CoEdge, Drawing, Graph};
+use crate::identify::kinds::kind_of;
+use crate::identify::{Engine, EngineKind, Evidence, Face, Identification, IdentifyError};
+use crate::{Progress, Result, Stage};
+
+/// Most edges at one vertex that the engine handles.
+pub const MAX_DEGREE: usize = 24;
+
+/// Faces from a rotation system; see the [module](super).
+pub struct RotationEngine {
+    scorer: Box<dyn TripleScorer>,
+}
+
+impl RotationEngine {
+    /// The engine with scores from `scorer`.
+    pub fn new(scorer: Box<dyn TripleScorer>) -> Self {
+        Self { scorer }
+    }
+}
+
+impl Default for RotationEngine {
+    /// The engine without a trained model.
+    fn default() -> Self {
+        Self::new(Box::new(HandScorer::default()))
+    }
+}
+
+impl Engine for RotationEngine {
+    fn name(&self) -> &'static str {
+        EngineKind::Rotation.name()
+    }
+
+    fn identify(&self, drawing: &Drawing, progress: Progress<'_>) -> Result<Identification> {
+        let graph = Graph::new(drawing);
+        check_degrees(&graph)?;
+        progress.report(Stage::Identify, 0.0)?;
+        let triples = Triples::new(&graph);
+        let scores = self.scorer.score(drawing, &graph, &triples, progress)?;
+        progress.report(Stage::Identify, 0.3)?;
+        let field = Field::new(&graph, &triples, &scores);
+        let system = field.decode();
+        progress.report(Stage::Identify, 0.6)?;
+        let cuts = Cuts::new(&field, &system);
+        let every = vec![true; graph.vertex_count()];
+        let sureness: Vec<f64> = (0..graph.vertex_count())
+            .map(|v| field.best_order(&system, v, &every).margin)
+            .collect();
+        let margin = |walk: &[CoEdge]| {
+            let at = |c: &CoEdge| {
+                let (u, v) = (graph.origin(*c), graph.head(*c));
+                sureness[u].min(cuts.between(u, v))
+            };
+            walk.iter().map(at).fold(f64::INFINITY, f64::min)
+        };
+        let faces = system
+            .loops()
+            .into_iter()
+            .map(|walk| {
+                let margin = margin(&walk);
+                Face {
+                    kind: kind_of(drawing, &walk),
+                    loops: vec![walk],
+                    confidence: confidence(margin),
+                    evidence: Evidence {
+                        votes: 1,
+                        margin: margin.is_finite().then_some(margin),
+                        residual: None,
+                    },
+                }
+            })
+            .collect();
+        progress.report(Stage::Identify, 1.0)?;
+        Ok(Identification {
+            engine: self.name().to_owned(),
+            faces,
+            alternatives: Vec::new(),
+            notices: Vec::new(),
+        })
+    }
+}
+
+/// Probability that a loop is right whose least sure decision is ahead by `margin` log-odds.
+fn confidence(margin: f64) -> f64 {
+    1.0 / (1.0 + (-margin).exp())
+}
+
+/// Refuses edges that end freely and vertices with too many edges to be one of a solid's.
+fn check_degrees(graph: &Graph) -> Result<(), IdentifyError> {
+    for vertex in 0..graph.vertex_count() {
+        let degree = graph.degree(vertex);
+        if degree == 1 {
+            return Err(IdentifyError::DanglingEdge {
+                edge: graph.leaving(vertex)[0].edge() + 1,
+                vertex,
+            });
+        }
+        if degree > MAX_DEGREE {
+            return Err(IdentifyError::DegreeTooHigh {
+                engine: EngineKind::Rotation.name(),
+                vertex,
+                degree,
+                limit: MAX_DEGREE,
+            });
+        }
+    }
+    Ok(())
+}
