@@ -106,6 +106,7 @@ mod tests {
             start: 0.4,
             sweep: -2.0,
             residual: 0.0,
+            uncertainty: 0.0,
         };
         let points: Vec<DVec2> = (0..=64)
             .map(|k| arc.point(arc.start + arc.sweep * f64::from(k) / 64.0))
