@@ -1,0 +1,183 @@
+//! Curves of edges in space, from how they are drawn and the surfaces beside them.
+
+mod drawn;
+mod trace;
+
+use glam::DVec3;
+
+use crate::drawing::{Curve2, Edge};
+
+use super::conic::{Conic, fit_plane};
+use super::support::Support;
+use super::view::View;
+use super::{Curve3, PlanError};
+
+use drawn::Drawn;
+
+/// How far a curve may be drawn from where its surfaces meet, as a share of the drawing's size:
+/// beyond it the surfaces are wrong.
+const DRAWN_GAP: f64 = 0.02;
+
+/// What is known of an edge when its curve is sought.
+pub(super) struct Place<'a> {
+    /// Edge, from 0.
+    pub(super) edge: usize,
+    pub(super) drawn: &'a Edge,
+    /// Its vertices in space.
+    pub(super) ends: [DVec3; 2],
+    /// Faces beside it, from 0.
+    pub(super) faces: [usize; 2],
+    /// Their surfaces.
+    pub(super) supports: [Support; 2],
+    /// Whether both faces have the same surface.
+    pub(super) same: bool,
+}
+
+/// Lengths that curves are judged by.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Lengths {
+    /// Half diagonal of the drawing.
+    pub(super) size: f64,
+    /// Within this, what was measured may be taken for what was meant.
+    pub(super) snap: f64,
+    /// Beyond this, an edge is off its surface.
+    pub(super) limit: f64,
+}
+
+/// The curve of an edge.
+///
+/// A straight edge stays straight. A curved one is where its surfaces meet: a circle or ellipse
+/// where a plane cuts a cylinder; between two faces of one plane what is drawn, lifted onto it;
+/// between two cylinders a curve through points, or an ellipse if that is plane.
+///
+/// # Errors
+/// [`PlanError::OffSurface`] or [`PlanError::Curve`] if the surfaces do not meet where it is drawn.
+pub(super) fn curve(place: &Place<'_>, view: &View, lengths: Lengths) -> Result<Curve3, PlanError> {
+    if place.drawn.is_straight() {
+        return straight(place, lengths);
+    }
+    let drawn = Drawn::new(place.drawn, view);
+    match place.supports {
+        [
+            plane @ Support::Plane { .. },
+            tube @ Support::Cylinder { .. },
+        ]
+        | [
+            tube @ Support::Cylinder { .. },
+            plane @ Support::Plane { .. },
+        ] => {
+            match Conic::cut(plane.origin(), plane.direction(), &tube) {
+                Some(conic) => fitted(place, &drawn, conic, lengths),
+                // A plane along the axis meets the cylinder in straight lines only.
+                None => straight(place, lengths),
+            }
+        }
+        [Support::Plane { .. }, Support::Plane { .. }] if place.same => {
+            on_plane(place, &drawn, view, lengths)
+        }
+        [Support::Plane { .. }, Support::Plane { .. }] => straight(place, lengths),
+        [a @ Support::Cylinder { .. }, b @ Support::Cylinder { .. }] => {
+            let surfaces = if place.same { vec![a] } else { vec![a, b] };
+            let points = trace::trace(&drawn, view, &surfaces, place.ends);
+            between_cylinders(place, &drawn, points, lengths)
+        }
+    }
+}
+
+/// A segment, if it lies on both surfaces.
+fn straight(place: &Place<'_>, lengths: Lengths) -> Result<Curve3, PlanError> {
+    let [a, b] = place.ends;
+    for (support, face) in place.supports.iter().zip(place.faces) {
+        for share in [0.25, 0.5, 0.75] {
+            let gap = support.distance(a.lerp(b, share)).abs();
+            if gap.is_nan() || gap > lengths.limit {
+                return Err(PlanError::OffSurface {
+                    edge: place.edge + 1,
+                    face: face + 1,
+                    gap,
+                });
+            }
+        }
+    }
+    Ok(Curve3::Line)
+}
+
+/// A conic, walked the way that is drawn.
+fn fitted(
+    place: &Place<'_>,
+    drawn: &Drawn<'_>,
+    conic: Conic,
+    lengths: Lengths,
+) -> Result<Curve3, PlanError> {
+    let [start, end] = place.ends;
+    let whole = place.drawn.v[0] == place.drawn.v[1];
+    let (conic, gap) = drawn.sense(conic, start, end, whole);
+    if gap.is_nan() || gap > DRAWN_GAP * lengths.size {
+        return Err(PlanError::Curve {
+            edge: place.edge + 1,
+            faces: place.faces.map(|f| f + 1),
+            gap,
+        });
+    }
+    Ok(conic.curve())
+}
+
+/// A curve between two faces of one plane: what is drawn, lifted.
+fn on_plane(
+    place: &Place<'_>,
+    drawn: &Drawn<'_>,
+    view: &View,
+    lengths: Lengths,
+) -> Result<Curve3, PlanError> {
+    let plane = place.supports[0];
+    // A parallel projection maps conjugate diameters to conjugate diameters.
+    if let (Curve2::Ellipse(arc), true) = (&place.drawn.curve, view.is_parallel()) {
+        let lift = |p| drawn::onto(view, &plane, p, None);
+        let lifted = [arc.center, arc.center + arc.major, arc.center + arc.minor()].map(lift);
+        if let [Some(center), Some(p), Some(q)] = lifted {
+            let conic = Conic::conjugate(center, p - center, q - center);
+            return fitted(place, drawn, conic.rounded(lengths.snap), lengths);
+        }
+    }
+    let points = trace::trace(drawn, view, &[plane], place.ends);
+    Ok(Curve3::Points { points })
+}
+
+/// A curve between two cylinders, given by points: an ellipse if they lie in a plane.
+fn between_cylinders(
+    place: &Place<'_>,
+    drawn: &Drawn<'_>,
+    points: Vec<DVec3>,
+    lengths: Lengths,
+) -> Result<Curve3, PlanError> {
+    for p in &points {
+        for (support, face) in place.supports.iter().zip(place.faces) {
+            let gap = support.distance(*p).abs();
+            if gap.is_nan() || gap > lengths.limit {
+                return Err(PlanError::OffSurface {
+                    edge: place.edge + 1,
+                    face: face + 1,
+                    gap,
+                });
+            }
+        }
+    }
+    if let Some((middle, normal, gap)) = fit_plane(&points)
+        && gap <= lengths.snap
+    {
+        let cut = Conic::cut(middle, normal, &place.supports[0]);
+        if let Some(Ok(curve)) = cut.map(|c| fitted(place, drawn, c.rounded(lengths.snap), lengths))
+        {
+            return Ok(curve);
+        }
+    }
+    let gap = drawn.gap(&points);
+    if gap.is_nan() || gap > DRAWN_GAP * lengths.size {
+        return Err(PlanError::Curve {
+            edge: place.edge + 1,
+            faces: place.faces.map(|f| f + 1),
+            gap,
+        });
+    }
+    Ok(Curve3::Points { points })
+}

@@ -1,0 +1,259 @@
+//! The steps of planning, in their order.
+
+use glam::{DMat3, DVec3};
+
+use crate::Result;
+use crate::drawing::{CoEdge, Drawing};
+use crate::identify::Face;
+use crate::lift::Lift;
+
+use super::curves::{self, Lengths, Place};
+use super::orient::orient;
+use super::snap::{Measured, Snapped, snap};
+use super::support::{Support, meet};
+use super::uses::{Use, uses};
+use super::view::View;
+use super::{Orientation, Plan, PlanEdge, PlanError, PlanFace, PlanOptions};
+use super::{finish, sample, silhouette, upright};
+
+/// Surfaces are snapped within this share of the drawing's size, and within ten times the lift's
+/// residual, but never more than [`SNAP_MOST`].
+const SNAP_LEAST: f64 = 1e-5;
+const SNAP_MOST: f64 = 2e-3;
+
+/// Vertices and edges may be this far off their surfaces, as a share of the drawing's size; a CAD
+/// kernel gets no larger tolerance.
+const LIMIT: f64 = 1e-4;
+
+/// Steps along a curve when loops are measured.
+const STEPS: usize = 24;
+
+/// Plans the B-rep of a lifted drawing.
+///
+/// `faces` are the ones that were lifted, in the same order. The plan's edges and vertices are the
+/// drawing's, with the same numbers; its faces are in the order of `faces`.
+///
+/// # Errors
+/// [`PlanError`] naming the face or edge that does not close, cannot be built or does not fit.
+pub fn plan(drawing: &Drawing, faces: &[Face], lift: &Lift, options: &PlanOptions) -> Result<Plan> {
+    check(drawing, faces, lift, options)?;
+    let uses = uses(drawing, faces)?;
+    let mut notices = Vec::new();
+    let rotation = match options.orientation {
+        Orientation::Drawn => DMat3::IDENTITY,
+        Orientation::Upright => {
+            let (rotation, found) = upright::rotation(&lift.directions);
+            if !found {
+                let what = "no dominant direction is known; the model lies as it is drawn";
+                notices.push(what.to_owned());
+            }
+            rotation
+        }
+    };
+    let view = View::new(drawing, rotation)?;
+    let size = drawing.size();
+    let snap_length = (10.0 * lift.residual).clamp(SNAP_LEAST * size, SNAP_MOST * size);
+    let lifted: Vec<DVec3> = drawing
+        .vertices
+        .iter()
+        .zip(&lift.depths)
+        .map(|(p, z)| view.place(*p, *z))
+        .collect();
+
+    let snapped = snap_faces(drawing, faces, lift, &uses, &view, &lifted, snap_length)?;
+    notices.extend(snapped.notices.iter().cloned());
+    let supports: Vec<Support> = snapped
+        .of_face
+        .iter()
+        .map(|&s| snapped.supports[s])
+        .collect();
+
+    let outlines: Vec<Option<Support>> = uses
+        .iter()
+        .zip(&drawing.edges)
+        .map(|([a, b], edge)| {
+            let one = snapped.of_face[a.face] == snapped.of_face[b.face] && edge.is_straight();
+            let ends = edge.v.map(|v| lifted[v]);
+            one.then(|| silhouette::outline(&supports[a.face], ends, &view))
+                .flatten()
+        })
+        .collect();
+    let vertices = meet_vertices(drawing, &uses, &snapped, &outlines, &lifted, LIMIT * size)?;
+
+    let lengths = Lengths {
+        size,
+        snap: snap_length,
+        limit: LIMIT * size,
+    };
+    let mut edges = Vec::with_capacity(drawing.edges.len());
+    for (e, (edge, [a, b])) in drawing.edges.iter().zip(&uses).enumerate() {
+        let place = Place {
+            edge: e,
+            drawn: edge,
+            ends: edge.v.map(|v| vertices[v]),
+            faces: [a.face, b.face],
+            supports: [supports[a.face], supports[b.face]],
+            same: snapped.of_face[a.face] == snapped.of_face[b.face],
+        };
+        edges.push(PlanEdge {
+            v: edge.v,
+            curve: curves::curve(&place, &view, lengths)?,
+            silhouette: outlines[e].is_some(),
+        });
+    }
+
+    let points = |co: CoEdge| {
+        let mut points = sample::polyline(&edges[co.edge()], &vertices, STEPS);
+        if co.is_reversed() {
+            points.reverse();
+        }
+        points.pop();
+        points
+    };
+    let loops: Vec<_> = faces.iter().map(|f| f.loops.clone()).collect();
+    let oriented = orient(&loops, &supports, &uses, points)?;
+    let faces = oriented
+        .into_iter()
+        .zip(&supports)
+        .enumerate()
+        .map(|(f, (face, support))| PlanFace {
+            surface: support.oriented(face.reversed),
+            loops: face.loops,
+            sources: vec![f],
+        })
+        .collect();
+    let plan = Plan {
+        vertices,
+        edges,
+        faces,
+        notices,
+    };
+    Ok(finish::finish(plan, options))
+}
+
+/// Whether the arguments belong together.
+fn check(
+    drawing: &Drawing,
+    faces: &[Face],
+    lift: &Lift,
+    options: &PlanOptions,
+) -> Result<(), PlanError> {
+    let bad = |what: String| Err(PlanError::Input(what));
+    let (vertices, depths) = (drawing.vertices.len(), lift.depths.len());
+    if vertices != depths {
+        return bad(format!("{vertices} vertices are drawn and {depths} lifted"));
+    }
+    if faces.len() != lift.surfaces.len() {
+        let (given, lifted) = (faces.len(), lift.surfaces.len());
+        return bad(format!("{given} faces are given and {lifted} lifted"));
+    }
+    if faces.is_empty() {
+        return bad("there are no faces".to_owned());
+    }
+    if let Some(v) = lift.depths.iter().position(|z| !z.is_finite()) {
+        return bad(format!("vertex {v} has no depth"));
+    }
+    if !options.scale.is_finite() || options.scale <= 0.0 {
+        return bad(format!(
+            "the scale {} is not a positive number",
+            options.scale
+        ));
+    }
+    Ok(())
+}
+
+/// The faces' surfaces in the plan's frame, snapped.
+fn snap_faces(
+    drawing: &Drawing,
+    faces: &[Face],
+    lift: &Lift,
+    uses: &[[Use; 2]],
+    view: &View,
+    lifted: &[DVec3],
+    tolerance: f64,
+) -> Result<Snapped, PlanError> {
+    let mut measured = Vec::with_capacity(faces.len());
+    for (f, (face, surface)) in faces.iter().zip(&lift.surfaces).enumerate() {
+        let support = Support::from_lift(surface).map_err(|what| PlanError::Surface {
+            face: f + 1,
+            what: what.to_owned(),
+        })?;
+        let corners = face.loops.iter().flatten().map(|co| {
+            let edge = &drawing.edges[co.edge()];
+            lifted[edge.v[usize::from(co.is_reversed())]]
+        });
+        measured.push(Measured {
+            support: support.turned(view.rotation()),
+            points: corners.collect(),
+        });
+    }
+    let smooth: Vec<[usize; 2]> = uses
+        .iter()
+        .zip(&drawing.edges)
+        .filter(|(_, edge)| edge.is_straight())
+        .map(|([a, b], _)| [a.face, b.face])
+        .collect();
+    let axes: Vec<DVec3> = lift
+        .directions
+        .iter()
+        .filter_map(|d| (view.rotation() * *d).try_normalize())
+        .map(exact_axis)
+        .collect();
+    Ok(snap(&measured, &smooth, &axes, tolerance))
+}
+
+/// A direction without the rounding that turning it upright left.
+fn exact_axis(d: DVec3) -> DVec3 {
+    let axis = DVec3::AXES
+        .into_iter()
+        .find(|a| d.cross(*a).length() < 1e-9);
+    axis.map_or(d, |a| a * d.dot(a).signum())
+}
+
+/// The vertices where their surfaces meet.
+///
+/// # Errors
+/// [`PlanError::OffSurface`] if a vertex stays farther than `limit` from one of them.
+fn meet_vertices(
+    drawing: &Drawing,
+    uses: &[[Use; 2]],
+    snapped: &Snapped,
+    outlines: &[Option<Support>],
+    lifted: &[DVec3],
+    limit: f64,
+) -> Result<Vec<DVec3>, PlanError> {
+    // Edges and faces at each vertex.
+    let mut around: Vec<Vec<(usize, usize)>> = vec![Vec::new(); lifted.len()];
+    for (e, pair) in uses.iter().enumerate() {
+        for v in drawing.edges[e].v {
+            around[v].extend(pair.iter().map(|u| (e, u.face)));
+        }
+    }
+    let mut vertices = Vec::with_capacity(lifted.len());
+    for (v, start) in lifted.iter().enumerate() {
+        let mut of: Vec<usize> = around[v].iter().map(|(_, f)| snapped.of_face[*f]).collect();
+        of.sort_unstable();
+        of.dedup();
+        let mut surfaces: Vec<Support> = of.iter().map(|&s| snapped.supports[s]).collect();
+        for &(e, _) in &around[v] {
+            if let Some(outline) = outlines[e]
+                && !surfaces.contains(&outline)
+            {
+                surfaces.push(outline);
+            }
+        }
+        let p = meet(*start, &surfaces);
+        for &(e, f) in &around[v] {
+            let gap = snapped.supports[snapped.of_face[f]].distance(p).abs();
+            if gap.is_nan() || gap > limit {
+                return Err(PlanError::OffSurface {
+                    edge: e + 1,
+                    face: f + 1,
+                    gap,
+                });
+            }
+        }
+        vertices.push(p);
+    }
+    Ok(vertices)
+}
