@@ -46,7 +46,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 valid += 1;
                 unmerged += usize::from(!m.merged);
                 if !m.merged {
-                    let ids = failures.entry("(not merged, but valid)".to_owned()).or_default();
+                    let ids = failures
+                        .entry("(not merged, but valid)".to_owned())
+                        .or_default();
                     ids.push(drawing.id.clone());
                 }
                 plan_ms.push(m.plan_ms);
@@ -55,14 +57,25 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             }
             Err(what) => {
                 let class: String = what.chars().filter(|c| !c.is_ascii_digit()).collect();
-                let entry = if flag("--list") { format!("{} {what}", drawing.id) } else { drawing.id };
+                let entry = if flag("--list") {
+                    format!("{} {what}", drawing.id)
+                } else {
+                    drawing.id
+                };
                 failures.entry(class).or_default().push(entry);
             }
         }
     }
-    println!("{count} drawings, valid {:.1}%", 100.0 * f64::from(valid) / count as f64);
+    println!(
+        "{count} drawings, valid {:.1}%",
+        100.0 * f64::from(valid) / count as f64
+    );
     println!("not merged {unmerged}, largest tolerance {largest_tolerance:.1e} of the size");
-    println!("median ms: plan {:.2}, build {:.2}", median(plan_ms), median(build_ms));
+    println!(
+        "median ms: plan {:.2}, build {:.2}",
+        median(plan_ms),
+        median(build_ms)
+    );
     for (class, ids) in &failures {
         println!("{:4}  {class}", ids.len());
         for id in ids.iter().take(if flag("--list") { usize::MAX } else { 3 }) {
@@ -81,7 +94,9 @@ struct Measured {
 
 fn is_simple(drawing: &Drawing) -> bool {
     let kinds = drawing.truth.iter().flat_map(|t| &t.faces).map(|f| f.kind);
-    kinds.into_iter().all(|k| matches!(k, SurfaceKind::Plane | SurfaceKind::Cylinder))
+    kinds
+        .into_iter()
+        .all(|k| matches!(k, SurfaceKind::Plane | SurfaceKind::Cylinder))
 }
 
 fn measure(drawing: &Drawing) -> Result<Measured, String> {

@@ -1,4 +1,5 @@
 //! A lift made from a drawing's truth, so that planning and building are measured on their own.
+#![allow(unreachable_pub)]
 
 use faceformer::drawing::{Drawing, SurfaceKind, Truth, TruthFace};
 use faceformer::lift::{Lift, LiftMethod, Surface};
@@ -47,7 +48,10 @@ fn centroid(points: &[DVec3]) -> DVec3 {
 /// Directions of least and of largest spread, by power iteration on the spread and its inverse.
 fn spread_axes(points: &[DVec3]) -> (DVec3, DVec3) {
     let middle = centroid(points);
-    let mut spread = DMat3::from_diagonal(DVec3::splat(1e-18));
+    // Not singular even if all points lie exactly in a plane.
+    let square = |p: &DVec3| p.distance_squared(middle);
+    let total: f64 = points.iter().map(square).sum();
+    let mut spread = DMat3::from_diagonal(DVec3::splat(1e-13 * total));
     for p in points {
         let d = *p - middle;
         spread += DMat3::from_cols(d * d.x, d * d.y, d * d.z);
@@ -76,7 +80,9 @@ fn fit_cylinder(polylines: &[Vec<DVec3>], points: &[DVec3], directions: &[DVec3]
     axes.extend(directions);
     let arcs = polylines.iter().filter(|p| p.len() > 2);
     axes.extend(arcs.map(|p| spread_axes(p).0));
-    let fits = axes.into_iter().filter_map(|axis| circle_along(axis, points));
+    let fits = axes
+        .into_iter()
+        .filter_map(|axis| circle_along(axis, points));
     let best = fits.min_by(|a, b| gap(a, points).total_cmp(&gap(b, points)));
     let Some(start) = best else {
         return Surface::Unknown;
