@@ -130,6 +130,77 @@ impl Faces {
     }
 }
 
+impl Solid {
+    pub(crate) fn build(drawing: &Drawing, faces: &Faces, options: &str) -> Called<Self> {
+        // SAFETY: live handles and slots.
+        call(|out, message| unsafe {
+            faceformer_solid(
+                drawing.0,
+                faces.0,
+                options.as_ptr().cast(),
+                options.len(),
+                None,
+                ptr::null_mut(),
+                out,
+                message,
+            )
+        })
+        .map(Self)
+    }
+
+    /// Builds with a callback that stops at a stage, and returns how that ends.
+    pub(crate) fn stop_at(drawing: &Drawing, faces: &Faces, stage: &CStr) -> FaceformerStatus {
+        // SAFETY: live handles and slots; the stage outlives the call.
+        call::<FaceformerSolid>(|out, message| unsafe {
+            let user = stage.as_ptr().cast_mut().cast();
+            let json = ptr::null();
+            faceformer_solid(drawing.0, faces.0, json, 0, Some(not_at), user, out, message)
+        })
+        .map_or_else(|(status, _)| status, |solid| {
+            drop(Self(solid));
+            FaceformerStatus::Ok
+        })
+    }
+
+    pub(crate) fn report(&self) -> serde_json::Value {
+        // SAFETY: a live handle.
+        let json =
+            call_string(|json, message| unsafe { faceformer_solid_report(self.0, json, message) });
+        serde_json::from_str(&json.unwrap()).unwrap()
+    }
+
+    pub(crate) fn brep(&self) -> Vec<u8> {
+        let mut len = 7;
+        // SAFETY: a live handle and live slots.
+        let bytes =
+            call(|out, message| unsafe { faceformer_solid_brep(self.0, out, &raw mut len, message) })
+                .unwrap();
+        // SAFETY: the library gave the bytes with their length.
+        let owned = unsafe { std::slice::from_raw_parts(bytes, len) }.to_vec();
+        // SAFETY: freed once with their length.
+        unsafe { faceformer_bytes_free(bytes, len) };
+        owned
+    }
+
+    pub(crate) fn write(&self, path: &CStr, format: &CStr) -> Called<()> {
+        let mut message = Message::dirty();
+        // SAFETY: a live handle, zero-terminated texts, a live slot.
+        let status = unsafe {
+            faceformer_solid_write(self.0, path.as_ptr(), format.as_ptr(), message.slot())
+        };
+        match (status, message.take()) {
+            (FaceformerStatus::Ok, None) => Ok(()),
+            (status, text) => Err((status, text.expect("a message on failure alone"))),
+        }
+    }
+}
+
+/// Goes on unless the stage is the one that `user` points to.
+unsafe extern "C" fn not_at(stage: *const c_char, _: f64, user: *mut c_void) -> i32 {
+    // SAFETY: both are zero-terminated.
+    i32::from(unsafe { CStr::from_ptr(stage) != CStr::from_ptr(user.cast()) })
+}
+
 /// Goes on until the share in the number that `user` points to is reached.
 pub(crate) unsafe extern "C" fn cancel_from(
     stage: *const c_char,
