@@ -57,6 +57,13 @@ inline void check(FaceformerStatus status, char *message) {
     }
 }
 
+/// Calls a function whose last argument is the message.
+template <class Call> void run(Call &&call) {
+    char *message = nullptr;
+    const auto status = call(&message);
+    check(status, message);
+}
+
 /// Calls a function whose last arguments are a string to return and the message.
 template <class Call> std::string text(Call &&call) {
     char *result = nullptr;
@@ -108,8 +115,9 @@ public:
     /// Reads a drawing in any of the forms of faceformer_drawing_read.
     static Drawing read(std::string_view json) {
         FaceformerDrawing *out = nullptr;
-        char *message = nullptr;
-        detail::check(faceformer_drawing_read(json.data(), json.size(), &out, &message), message);
+        detail::run([&](char **message) {
+            return faceformer_drawing_read(json.data(), json.size(), &out, message);
+        });
         return Drawing(out);
     }
 
@@ -150,9 +158,9 @@ public:
     /// Takes faces in the form of json().
     static Faces read(const Drawing &drawing, std::string_view json) {
         FaceformerFaces *out = nullptr;
-        char *message = nullptr;
-        detail::check(
-            faceformer_faces_read(drawing.get(), json.data(), json.size(), &out, &message), message);
+        detail::run([&](char **message) {
+            return faceformer_faces_read(drawing.get(), json.data(), json.size(), &out, message);
+        });
         return Faces(out);
     }
 
@@ -190,8 +198,9 @@ public:
     std::string brep() const {
         std::uint8_t *bytes = nullptr;
         std::size_t length = 0;
-        char *message = nullptr;
-        detail::check(faceformer_solid_brep(get(), &bytes, &length, &message), message);
+        detail::run([&](char **message) {
+            return faceformer_solid_brep(get(), &bytes, &length, message);
+        });
         const auto free = [length](std::uint8_t *b) { faceformer_bytes_free(b, length); };
         const std::unique_ptr<std::uint8_t, decltype(free)> owned(bytes, free);
         return std::string(reinterpret_cast<const char *>(bytes), length);
@@ -199,9 +208,9 @@ public:
 
     /// Writes a file; the format is "step", "brep" or "stl".
     void write(const std::string &path, const std::string &format) const {
-        char *message = nullptr;
-        detail::check(faceformer_solid_write(get(), path.c_str(), format.c_str(), &message),
-                      message);
+        detail::run([&](char **message) {
+            return faceformer_solid_write(get(), path.c_str(), format.c_str(), message);
+        });
     }
 
     const FaceformerSolid *get() const noexcept { return handle_.get(); }

@@ -219,7 +219,7 @@ mod tests {
 
     #[test]
     fn an_open_wire_fails_by_name() {
-        let open = Drawing::read(testing::box_edge_list(11).as_bytes()).unwrap();
+        let open = Drawing::read(testing::box_edge_list(2).as_bytes()).unwrap();
         let (status, message) = Faces::identify(&open, "{}", 2.0).unwrap_err();
         assert_eq!(status, FaceformerStatus::Failed);
         assert!(message.contains("edge"), "{message}");

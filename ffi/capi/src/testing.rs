@@ -154,12 +154,24 @@ impl Solid {
         call::<FaceformerSolid>(|out, message| unsafe {
             let user = stage.as_ptr().cast_mut().cast();
             let json = ptr::null();
-            faceformer_solid(drawing.0, faces.0, json, 0, Some(not_at), user, out, message)
+            faceformer_solid(
+                drawing.0,
+                faces.0,
+                json,
+                0,
+                Some(not_at),
+                user,
+                out,
+                message,
+            )
         })
-        .map_or_else(|(status, _)| status, |solid| {
-            drop(Self(solid));
-            FaceformerStatus::Ok
-        })
+        .map_or_else(
+            |(status, _)| status,
+            |solid| {
+                drop(Self(solid));
+                FaceformerStatus::Ok
+            },
+        )
     }
 
     pub(crate) fn report(&self) -> serde_json::Value {
@@ -172,9 +184,10 @@ impl Solid {
     pub(crate) fn brep(&self) -> Vec<u8> {
         let mut len = 7;
         // SAFETY: a live handle and live slots.
-        let bytes =
-            call(|out, message| unsafe { faceformer_solid_brep(self.0, out, &raw mut len, message) })
-                .unwrap();
+        let bytes = call(|out, message| unsafe {
+            faceformer_solid_brep(self.0, out, &raw mut len, message)
+        })
+        .unwrap();
         // SAFETY: the library gave the bytes with their length.
         let owned = unsafe { std::slice::from_raw_parts(bytes, len) }.to_vec();
         // SAFETY: freed once with their length.

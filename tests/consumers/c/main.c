@@ -47,6 +47,16 @@ static char *read_file(const char *path, size_t *length) {
     return text;
 }
 
+static int contains(const uint8_t *bytes, size_t length, const char *text) {
+    size_t size = strlen(text), i;
+    for (i = 0; i + size <= length; i++) {
+        if (memcmp(bytes + i, text, size) == 0) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
 /* The number after a key in JSON text, enough for a test. */
 static double number(const char *json, const char *key) {
     const char *at = strstr(json, key);
@@ -95,7 +105,7 @@ static int whole_way(const char *json, size_t length, const char *step) {
     if (ok) {
         EXPECT(calls > 0);
         EXPECT(strstr(text, "\"partial\":false") != NULL);
-        EXPECT(brep_length > 100 && memcmp(brep, "DBRep", 5) == 0);
+        EXPECT(brep_length > 100 && contains(brep, brep_length, "CASCADE Topology V1"));
         printf("volume %.9g\n", number(text, "\"volume\":"));
         EXPECT(faceformer_solid_write(solid, "no/such/folder/x.step", "step", NULL)
                == FACEFORMER_STATUS_FAILED);

@@ -6,11 +6,15 @@ use std::sync::OnceLock;
 
 use super::library;
 
-/// A folder for this test's files, kept between runs so that little is built twice.
+/// An empty folder for this test's files. What takes long is built in cargo's own folder.
 fn folder(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_TARGET_TMPDIR"))
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"))
         .join("capi")
-        .join(name)
+        .join(name);
+    if folder.exists() {
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+    folder
 }
 
 /// Runs a command and gives its standard output.
@@ -48,9 +52,6 @@ fn prefix() -> &'static PathBuf {
     static PREFIX: OnceLock<PathBuf> = OnceLock::new();
     PREFIX.get_or_init(|| {
         let (build, prefix) = (folder("build"), folder("prefix"));
-        if prefix.exists() {
-            std::fs::remove_dir_all(&prefix).unwrap();
-        }
         cmake(&library::root().join("cmake"), &build, &[]);
         run(Command::new("cmake")
             .arg("--install")
