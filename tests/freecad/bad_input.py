@@ -66,6 +66,8 @@ def main():
         lambda: api.identify_faces(block, progress=_raise),
         ValueError,
     )
+    steps = [V(math.cos(k), math.sin(k)) * k for k in range(1, 6002)]
+    refuses("6000 edges", ["limit of 5000"], lambda: api.identify_faces(Part.makePolygon(steps)))
     refuses("solid: scale 0", ["scale"], lambda: api.to_solid(block, scale=0), BadInput)
     refuses("solid: scale NaN", ["scale"], lambda: api.to_solid(block, scale=math.nan), BadInput)
     refuses("wireframe: no direction", ["length"], lambda: api.wireframe(box, (0, 0, 0)), BadInput)

@@ -35,6 +35,8 @@ def refuses(what, words, work, kind=None):
         text = " ".join(str(error).split())
         missing = [word for word in words if word not in text]
         check(not missing, f"{what}: {text!r}" + (f" lacks {missing}" if missing else ""))
+    except Exception as error:  # any other kind of error is a failed check, not the end
+        check(False, f"{what}: {type(error).__name__}: {error}")
     else:
         check(False, f"{what}: nothing was raised")
 

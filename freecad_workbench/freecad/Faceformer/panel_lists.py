@@ -39,8 +39,11 @@ class FaceList(QtWidgets.QTreeWidget):
                 translate("Faceformer", "Face"),
                 translate("Faceformer", "Type"),
                 translate("Faceformer", "Edges"),
-                translate("Faceformer", "Confidence"),
+                translate("Faceformer", "Conf."),
             ]
+        )
+        self.headerItem().setToolTip(
+            3, translate("Faceformer", "Confidence: how probable it is that the face is right")
         )
         self.setMinimumSize(120, 220)
         self.itemSelectionChanged.connect(self._selection_changed)
@@ -70,7 +73,7 @@ class FaceList(QtWidgets.QTreeWidget):
                 str(face.number),
                 translate("Faceformer", KIND_NAMES.get(face.kind, face.kind)),
                 str(len(face.edge_indices)),
-                f"{100 * face.confidence:.0f}\u00a0%",
+                f"{100 * face.confidence:.0f}%",
             ]
         )
         item.setFlags(item.flags() | QtCore.Qt.ItemIsUserCheckable)

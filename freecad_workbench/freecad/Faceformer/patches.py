@@ -53,7 +53,7 @@ class Patches:
         height = {k: (place + 1) * LIFT * self._size for place, k in enumerate(order)}
         self._switches, self._materials, self._outlines = [], [], []
         for k, outline in enumerate(outlines):
-            self._add(k, outline, height[k])
+            self._add(k, outline, height[k], len(outlines))
         for k in order:
             self._faces_root.addChild(self._switches[k])
         self._add_lines(drawing)
@@ -79,7 +79,7 @@ class Patches:
     def mark(self, lines: Iterable[Sequence[Point]], points: Iterable[Point] = ()) -> None:
         """Marks lines and points of the drawing that a message is about."""
         self._marks.removeAllChildren()
-        height = (len(self._switches) + 2) * LIFT * self._size
+        height = (len(self._switches) + 3) * LIFT * self._size
         self._marks.addChild(_material(colours.ERROR, 0.0))
         style = coin.SoDrawStyle()
         style.lineWidth = 5
@@ -110,7 +110,7 @@ class Patches:
         for edge in drawing.edges:
             _add_polyline(self._lines, edge.points, height, closed=False)
 
-    def _add(self, number: int, outline: list[list[Point]], height: float) -> None:
+    def _add(self, number: int, outline: list[list[Point]], height: float, count: int) -> None:
         switch = coin.SoSwitch()
         switch.whichChild = coin.SO_SWITCH_ALL
         patch = coin.SoSeparator()
@@ -133,8 +133,9 @@ class Patches:
         style = coin.SoDrawStyle()
         style.lineWidth = 4
         frame.addChild(style)
+        above = (count + 2) * LIFT * self._size
         for loop in outline:
-            _add_polyline(frame, loop, height, closed=True)
+            _add_polyline(frame, loop, above, closed=True)
         switch.addChild(patch)
         switch.addChild(frame)
         self._switches.append(switch)
