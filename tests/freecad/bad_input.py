@@ -49,7 +49,7 @@ def main():
             BadInput,
         )
         refuses(f"{name}: an open wire", ["Edge"], lambda w=work: w(open_wire))
-        refuses(f"{name}: lines that cross without a vertex", [], lambda w=work: w(crossing))
+        refuses(f"{name}: lines that cross freely", ["connect"], lambda w=work: w(crossing))
         refuses(f"{name}: no such engine", ["engine"], lambda w=work: w(block, "magic"), BadInput)
         broken = Part.makePolygon([V(0, 0, 0), V(5, 0, 0), V(5, 5, 0)])
         broken.Placement = FreeCAD.Placement(V(math.nan, 0, 0), FreeCAD.Rotation())
@@ -67,7 +67,9 @@ def main():
         ValueError,
     )
     steps = [V(math.cos(k), math.sin(k)) * k for k in range(1, 6002)]
-    refuses("6000 edges", ["limit of 5000"], lambda: api.identify_faces(Part.makePolygon(steps)))
+    refuses(
+        "6000 edges", ["the limit is 5000"], lambda: api.identify_faces(Part.makePolygon(steps))
+    )
     refuses("solid: scale 0", ["scale"], lambda: api.to_solid(block, scale=0), BadInput)
     refuses("solid: scale NaN", ["scale"], lambda: api.to_solid(block, scale=math.nan), BadInput)
     refuses("wireframe: no direction", ["length"], lambda: api.wireframe(box, (0, 0, 0)), BadInput)

@@ -225,15 +225,15 @@ class Panel:
             self._patches.set_visible(number, face.key not in self.session.off)
 
     def _show_messages(self, error: BaseException | None = None) -> None:
-        findings = []
-        if error is not None and not is_cancelled(error):
-            FreeCAD.Console.PrintError(f"Faceformer: {error}\n")
-            findings.append(Finding("error", str(error), (), ()))
         outcome = self.session.outcome
-        findings += outcome.drawing.findings if outcome.drawing else ()
+        findings = list(outcome.drawing.findings) if outcome.drawing else []
         if outcome.identified:
             notices = outcome.identified.identification.notices
             findings += [Finding("notice", text, (), ()) for text in notices]
+        if error is not None and not is_cancelled(error):
+            FreeCAD.Console.PrintError(f"Faceformer: {error}\n")
+            if str(error) not in [finding.message for finding in findings]:
+                findings.insert(0, Finding("error", str(error), (), ()))
         self.form.show_messages(findings)
 
     def _show_source(self) -> None:

@@ -7,14 +7,16 @@ with progress; the parametric object then asks for the same work and finds it in
 
 from __future__ import annotations
 
+import re
 import threading
 from collections import OrderedDict
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
 from . import _native
-from .errors import BadInput
+from .errors import BadInput, Failed
 from .model import Drawing, Identification
 
 ENGINES = ("rotation", "varley", "shortest")
@@ -111,7 +113,8 @@ def identify(
 
     def make() -> Identified:
         native, drawing = read(text, names)
-        faces = native.identify({"engine": engine}, progress)
+        with names_in_errors(drawing):
+            faces = native.identify({"engine": engine}, progress)
         return Identified(text, Identification.parse(faces.identification(), drawing), native)
 
     return _identified.get((text, engine), make)
@@ -122,13 +125,40 @@ def solid(identified: Identified, options: SolidOptions, progress: Progress | No
 
     def make() -> Built:
         faces = identified.native.read_faces(chosen_faces(identified.identification, options))
-        native = identified.native.solid(faces, options.native(), progress)
+        with names_in_errors(identified.identification.drawing):
+            native = identified.native.solid(faces, options.native(), progress)
         report = native.report()
         return Built(
             native.brep().decode("utf-8"), report["report"], report["lift"], report["plan"]
         )
 
     return _built.get((identified.text, identified.identification.engine, options), make)
+
+
+@contextmanager
+def names_in_errors(drawing: Drawing) -> Iterator[None]:
+    """Says what the user can find: errors of the library number the edges of the cleaned drawing.
+
+    If the diagnosis found the drawing itself at fault, its words are better than what followed.
+    """
+    try:
+        yield
+    except Failed as error:
+        causes = [finding.message for finding in drawing.findings if finding.severity == "error"]
+        named = Failed(causes[0] if causes else with_names(str(error), drawing))
+        named.partial = error.partial
+        raise named from error
+
+
+def with_names(message: str, drawing: Drawing) -> str:
+    """A message of the library with the names of the source's edges in the place of numbers."""
+
+    def name(match: re.Match[str]) -> str:
+        number = int(match.group(1)) - 1
+        names = drawing.names_of([number]) if number < len(drawing.edges) else ()
+        return ", ".join(names) or match.group(0)
+
+    return re.sub(r"\bedge (\d+)\b", name, message)
 
 
 def chosen_faces(identification: Identification, options: SolidOptions) -> dict[str, Any]:

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 import unittest
 
-from ..errors import BadInput
+from ..errors import BadInput, Failed
 from ..model import Drawing, Identification
-from ..pipeline import SolidOptions, Store, chosen_faces
+from ..pipeline import SolidOptions, Store, chosen_faces, names_in_errors, with_names
 from .test_model import NAMES, REPORT
 
 TWO = [{"type": "plane", "loops": [[1, 2, -3]]}, {"type": "cylinder", "loops": [[1, -1]]}]
@@ -47,3 +47,13 @@ class PipelineTest(unittest.TestCase):
         with self.assertRaises(ZeroDivisionError):
             store.get("a", lambda: 1 // 0)
         self.assertEqual(store.get("a", lambda: 5), 5)
+
+    def test_errors_name_the_edges_of_the_source(self):
+        drawing = self.identification.drawing
+        text = with_names("edge 1 and edge 2 meet at vertex 1; edge 99 does not", drawing)
+        self.assertEqual(text, "Edge1, Edge4 and Edge2 meet at vertex 1; edge 99 does not")
+
+    def test_a_fault_of_the_drawing_is_said_before_its_consequences(self):
+        drawing = self.identification.drawing
+        with self.assertRaisesRegex(Failed, "Edge2 ends freely"), names_in_errors(drawing):
+            raise Failed("edge 3 has no faces")
