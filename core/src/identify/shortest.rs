@@ -20,7 +20,7 @@ use super::{Engine, EngineKind, Identification, IdentifyError, orient};
 use crate::drawing::{CoEdge, Drawing, Graph, SurfaceKind};
 use crate::{Progress, Result, Stage};
 
-/// Least-cost loops; see the [module](self) for the method.
+/// The least-cost loop through each co-edge, by Dijkstra's algorithm: the older baseline.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ShortestEngine {
     /// Cost of turning back (a half turn), in edges.

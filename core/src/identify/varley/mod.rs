@@ -42,7 +42,7 @@ use crate::{Progress, Result, Stage};
 /// Most edges at a vertex: the work at a vertex grows with the square of its degree.
 const DEGREE_LIMIT: usize = 32;
 
-/// String merging, for drawings of polyhedra.
+/// String merging after Varley and Company (2010), for drawings of polyhedra.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct VarleyEngine;
 
