@@ -83,7 +83,7 @@ fn shortest_on_everything() {
 #[test]
 fn every_result_is_a_faces_file_that_fits_its_drawing() {
     for drawing in sample().iter().step_by(7) {
-        for kind in [EngineKind::Varley, EngineKind::Shortest] {
+        for kind in EngineKind::ALL {
             let Ok(found) = engine(kind).identify(drawing, Progress::none()) else {
                 continue;
             };

@@ -15,9 +15,10 @@ use std::collections::BinaryHeap;
 
 use glam::DVec2;
 
+use super::kinds::kind_of;
 use super::postprocess::{Prediction, postprocess};
 use super::{Engine, EngineKind, Identification, IdentifyError, orient};
-use crate::drawing::{CoEdge, Drawing, Graph, SurfaceKind};
+use crate::drawing::{CoEdge, Drawing, Graph};
 use crate::{Progress, Result, Stage};
 
 /// The least-cost loop through each co-edge, by Dijkstra's algorithm: the older baseline.
@@ -44,7 +45,7 @@ impl Engine for ShortestEngine {
         let mut predictions = Vec::new();
         let mut predict = |walk: Vec<CoEdge>| {
             predictions.push(Prediction {
-                kind: SurfaceKind::Plane,
+                kind: kind_of(drawing, &walk),
                 coedges: walk,
                 votes: 1,
             });
