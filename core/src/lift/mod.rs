@@ -11,6 +11,7 @@ pub mod directions;
 mod error;
 mod metric;
 mod model;
+mod posture;
 mod rows;
 mod sheet;
 mod solve;
@@ -29,6 +30,7 @@ use crate::drawing::Drawing;
 use crate::identify::Face;
 use crate::{Progress, Result, Stage};
 use directions::Directions;
+use posture::{Posture, explained};
 use sheet::Sheet;
 use solve::Solved;
 
@@ -52,9 +54,15 @@ pub fn lift(
 ) -> Result<Lift> {
     progress.report(Stage::Lift, 0.0)?;
     let readings = Directions::candidates(drawing)?;
-    let mut best: Option<(Directions, Lift, usize)> = None;
+    let most = readings.iter().map(explained).max().unwrap_or(0);
+    let mut best: Option<Choice> = None;
+    let mut refusal = None;
     for (i, reading) in readings.iter().enumerate() {
         progress.report(Stage::Lift, 0.2 + 0.8 * i as f64 / readings.len() as f64)?;
+        let rival = explained(reading) == most;
+        if best.as_ref().is_some_and(|b| b.dropped == 0) && !rival {
+            continue;
+        }
         let reading = if options.flip {
             reading.clone().reversed()
         } else {
@@ -63,22 +71,49 @@ pub fn lift(
         let sheet = Sheet::new(drawing, faces, &reading);
         let solved = match solve::solve(&sheet) {
             Ok(solved) => solved,
-            Err(error) if best.is_none() => return Err(error.into()),
-            Err(_) => continue,
+            Err(error) => {
+                refusal.get_or_insert(error);
+                continue;
+            }
         };
-        let dropped = solved.dropped();
-        // A later reading must be much better to be believed.
-        if best.as_ref().is_none_or(|b| 2 * dropped < b.2) {
-            let lift = finish(&sheet, &solved);
-            best = Some((reading, lift, dropped));
-        }
-        if best.as_ref().is_some_and(|b| b.2 == 0) {
-            break;
+        let choice = Choice {
+            dropped: solved.dropped(),
+            rival,
+            posture: Posture::of(&sheet, |v| solved.depth(v)),
+            lift: finish(&sheet, &solved),
+        };
+        if best.as_ref().is_none_or(|b| choice.is_better_than(b)) {
+            best = Some(choice);
         }
     }
     progress.report(Stage::Lift, 1.0)?;
-    best.map(|b| b.1)
-        .ok_or_else(|| LiftError::NoDirections("no reading".into()).into())
+    match (best, refusal) {
+        (Some(choice), _) => Ok(choice.lift),
+        (None, Some(error)) => Err(error.into()),
+        (None, None) => Err(LiftError::NoDirections("no reading".into()).into()),
+    }
+}
+
+/// A lifted reading.
+struct Choice {
+    lift: Lift,
+    /// Rows that contradict it.
+    dropped: usize,
+    /// Whether no other reading explains more edges.
+    rival: bool,
+    posture: Posture,
+}
+
+impl Choice {
+    /// Whether this reading is to be believed rather than one before it, which is likelier by
+    /// itself: if it has far fewer contradictions, or explains as much and stands more naturally.
+    fn is_better_than(&self, other: &Self) -> bool {
+        2 * self.dropped < other.dropped
+            || (self.rival
+                && other.rival
+                && self.dropped <= other.dropped
+                && self.posture > other.posture)
+    }
 }
 
 fn finish(sheet: &Sheet<'_>, solved: &Solved) -> Lift {

@@ -46,6 +46,22 @@ fn a_cube_is_lifted_from_above() {
 }
 
 #[test]
+fn a_wedge_is_drawn_upright_and_stands_on_a_face() {
+    // A right-angled triangle whose upright leg is drawn vertically, from several sides. Its
+    // drawing fits the solids with the right angle at another corner as well.
+    let triangle = [[0.0, 0.0], [1.6, 0.0], [0.0, 1.0]];
+    for (tilt, yaw) in [(0.45, 0.65), (0.6, -0.5), (0.3, 0.9), (0.7, 2.5)] {
+        let turn = DQuat::from_rotation_x(tilt) * DQuat::from_rotation_y(yaw);
+        let (drawing, faces) = extrusion(turn, &triangle, 0.8);
+        for flip in [false, true] {
+            let options = LiftOptions { flip };
+            let found = lift(&drawing, &faces, &options, Progress::none()).unwrap();
+            assert!(error(&drawing, &found) < 1e-9, "tilt {tilt}, yaw {yaw}");
+        }
+    }
+}
+
+#[test]
 fn flip_is_the_mirror_image() {
     let (drawing, faces) = extrusion(view(), &SQUARE, 0.7);
     let straight = lifted(&drawing, &faces);
