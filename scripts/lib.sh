@@ -50,7 +50,7 @@ need_cargo() {
     step "Installing Rust with rustup (found: $found, needed: $wanted)"
     local installer
     installer=$(mktemp)
-    curl --proto '=https' --tlsv1.2 -sSf https://sh.rustup.rs -o "$installer" ||
+    curl --proto '=https' --tlsv1.2 -sSf https://static.rust-lang.org/rustup/rustup-init.sh -o "$installer" ||
         fail "rustup cannot be downloaded. Install Rust $wanted or newer, then run this again."
     sh "$installer" -y --profile minimal --component rustfmt,clippy --no-modify-path
     rm -f "$installer"

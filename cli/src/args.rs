@@ -28,6 +28,10 @@ pub(crate) enum Command {
     Check(CheckArgs),
     /// Find the faces of a drawing
     Identify(IdentifyArgs),
+    /// Recover the depth of a drawing
+    Lift(LiftArgs),
+    /// Turn a drawing into a solid
+    Solid(SolidArgs),
     /// Measure faces, depth and solids on drawings with known truth
     Eval(EvalArgs),
     /// Draw a picture of a drawing and its faces
@@ -68,6 +72,54 @@ pub(crate) struct IdentifyArgs {
     pub(crate) output: Option<PathBuf>,
 }
 
+/// Arguments of `lift`.
+#[derive(Debug, Args)]
+pub(crate) struct LiftArgs {
+    /// The drawing
+    pub(crate) drawing: String,
+    #[command(flatten)]
+    pub(crate) faces: FacesArgs,
+    /// Take the solid that is the mirror image in depth
+    #[arg(long)]
+    pub(crate) flip: bool,
+    /// File for the depths and surfaces (JSON); standard output without it
+    #[arg(short, long, value_name = "LIFT.json")]
+    pub(crate) output: Option<PathBuf>,
+}
+
+/// How the solid stands in space.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum OrientationArg {
+    /// The model's own axes along x, y and z.
+    Upright,
+    /// As seen in the drawing: x to the right, y up, z towards the viewer.
+    Drawn,
+}
+
+/// Arguments of `solid`.
+#[derive(Debug, Args)]
+pub(crate) struct SolidArgs {
+    /// The drawing
+    pub(crate) drawing: String,
+    #[command(flatten)]
+    pub(crate) faces: FacesArgs,
+    /// File for the solid: .step, .stp, .brep, .brp, .stl, or .json for the plan, lift and report
+    #[arg(short, long, value_name = "OUT")]
+    pub(crate) output: PathBuf,
+    /// Take the solid that is the mirror image in depth
+    #[arg(long)]
+    pub(crate) flip: bool,
+    /// Model units for each drawing unit
+    #[arg(long, value_name = "S", default_value_t = 1.0)]
+    pub(crate) scale: f64,
+    /// How the solid stands in space
+    #[arg(long, value_enum, default_value_t = OrientationArg::Upright)]
+    pub(crate) orientation: OrientationArg,
+    /// If the solid cannot be built, keep the faces that could be (BREP)
+    #[arg(long, value_name = "FILE")]
+    pub(crate) keep_partial: Option<PathBuf>,
+}
+
 /// Which drawings of a data set are measured, by their truth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Shapes {
@@ -88,6 +140,9 @@ pub(crate) struct EvalArgs {
     pub(crate) data: PathBuf,
     #[command(flatten)]
     pub(crate) faces: FacesArgs,
+    /// Also lift the drawings and build their solids
+    #[arg(long)]
+    pub(crate) solids: bool,
     /// Measure the first N drawings only
     #[arg(long, value_name = "N")]
     pub(crate) limit: Option<usize>,
@@ -118,10 +173,16 @@ pub(crate) struct RenderArgs {
     /// Text above the picture; the drawing's id without it
     #[arg(long, value_name = "TEXT")]
     pub(crate) title: Option<String>,
-    /// Width of the picture in pixels
-    #[arg(long, value_name = "PX", default_value_t = 960, value_parser = clap::value_parser!(u32).range(160..=8192))]
-    pub(crate) width: u32,
+    /// Width of the picture in pixels [default: 960, with --solid 1440]
+    #[arg(long, value_name = "PX", value_parser = clap::value_parser!(u32).range(160..=8192))]
+    pub(crate) width: Option<u32>,
     /// Height of the picture in pixels; follows from the drawing without it
     #[arg(long, value_name = "PX", value_parser = clap::value_parser!(u32).range(160..=8192))]
     pub(crate) height: Option<u32>,
+    /// Build the solid too, and show it from another side in a second panel
+    #[arg(long)]
+    pub(crate) solid: bool,
+    /// With --solid: take the mirror image in depth
+    #[arg(long, requires = "solid")]
+    pub(crate) flip: bool,
 }

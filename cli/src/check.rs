@@ -40,7 +40,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
 
 fn as_json(clean: &CleanDrawing) -> serde_json::Value {
     json!({
-        "drawing": clean.drawing.to_json(),
+        "drawing": clean.drawing,
         "sources": clean.sources,
         "findings": clean.report.findings,
         "tolerance": clean.report.tolerance,

@@ -6,6 +6,7 @@ use std::process::ExitCode;
 
 use faceformer::drawing::DrawingError;
 use faceformer::identify::IdentifyError;
+use faceformer_occt::OcctError;
 
 use crate::render::RenderError;
 
@@ -60,6 +61,9 @@ pub(crate) enum Failure {
     /// A stage failed.
     #[error(transparent)]
     Stage(#[from] faceformer::Error),
+    /// The CAD kernel could not build the solid.
+    #[error(transparent)]
+    Build(#[from] OcctError),
     /// The picture could not be made.
     #[error(transparent)]
     Render(#[from] RenderError),
@@ -79,7 +83,7 @@ impl Failure {
             | Self::Unusable { .. }
             | Self::Faces { .. }
             | Self::Stage(faceformer::Error::Drawing(_)) => 2,
-            Self::Stage(_) | Self::Render(_) | Self::Json(_) => 1,
+            Self::Stage(_) | Self::Build(_) | Self::Render(_) | Self::Json(_) => 1,
         };
         ExitCode::from(status)
     }

@@ -6,6 +6,7 @@ mod eval;
 mod failure;
 mod output;
 mod render;
+mod solid;
 mod source;
 mod stages;
 
@@ -20,6 +21,8 @@ fn main() -> ExitCode {
     let result = match &cli.command {
         Command::Check(args) => check::run(args),
         Command::Identify(args) => stages::run_identify(args),
+        Command::Lift(args) => stages::run_lift(args),
+        Command::Solid(args) => solid::run(args),
         Command::Eval(args) => eval::run(args),
         Command::Render(args) => render::run(args),
     };

@@ -59,6 +59,11 @@ impl Output {
         })
     }
 
+    /// Where to write; the name's ending says nothing about the format.
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// Writes all of the content.
     ///
     /// # Errors

@@ -113,7 +113,7 @@ pub(crate) fn make(
     lift: &Lift,
     options: &PlanOptions,
 ) -> Result<(Plan, Solid), Failure> {
-    let plan = plan(drawing, &found.faces, lift, options).map_err(faceformer::Error::from)?;
+    let plan = plan(drawing, &found.faces, lift, options)?;
     let solid = build(&plan, Progress::none())?;
     Ok((plan, solid))
 }

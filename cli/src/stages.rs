@@ -3,8 +3,9 @@
 use faceformer::Progress;
 use faceformer::drawing::{CleanDrawing, Drawing, Finding, Severity};
 use faceformer::identify::{self, EngineKind, Identification};
+use faceformer::lift::{Lift, LiftOptions, lift};
 
-use crate::args::{FacesArgs, IdentifyArgs};
+use crate::args::{FacesArgs, IdentifyArgs, LiftArgs};
 use crate::failure::Failure;
 use crate::output::{Output, finish, json_line};
 use crate::source;
@@ -99,4 +100,40 @@ pub(crate) fn run_identify(args: &IdentifyArgs) -> Result<(), Failure> {
     let found = FacesFrom::Engine(args.engine).faces(&drawing)?;
     tell(&found.notices);
     finish(output, &json_line(&found)?)
+}
+
+/// `faceformer lift`.
+///
+/// # Errors
+/// [`Failure`].
+pub(crate) fn run_lift(args: &LiftArgs) -> Result<(), Failure> {
+    let output = args.output.as_deref().map(Output::create).transpose()?;
+    let drawing = usable(&args.drawing)?;
+    let found = FacesFrom::new(&args.faces).faces(&drawing)?;
+    tell(&found.notices);
+    let lifted = raise(&drawing, &found, args.flip)?;
+    finish(output, &json_line(&lifted)?)
+}
+
+/// Lifts a drawing and tells the user which faces contradict the depths.
+///
+/// # Errors
+/// [`Failure::Stage`].
+pub(crate) fn raise(
+    drawing: &Drawing,
+    found: &Identification,
+    flip: bool,
+) -> Result<Lift, Failure> {
+    let options = LiftOptions { flip };
+    let lifted = lift(drawing, &found.faces, &options, Progress::none())?;
+    for conflict in &lifted.conflicts {
+        eprintln!(
+            "faceformer: warning: face {} does not fit the others: its vertices {:?} lie up to \
+             {:.2e} off its surface",
+            conflict.face + 1,
+            conflict.vertices,
+            conflict.residual
+        );
+    }
+    Ok(lifted)
 }

@@ -3,8 +3,11 @@
 //! The tests run the programs of this workspace as a user does, so they need them built. Each
 //! [`build`] asks cargo, which does nothing if all is up to date; no test runs a stale program.
 
+use std::ffi::OsStr;
+use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Stdio};
+use std::sync::OnceLock;
 
 /// Root folder of the repository.
 pub fn root() -> PathBuf {
@@ -93,4 +96,64 @@ pub fn output_dir(name: &str) -> PathBuf {
     }
     std::fs::create_dir_all(&dir).expect("the folder for test output can be made");
     dir
+}
+
+/// A finished run of the program `faceformer`.
+#[derive(Debug)]
+pub struct Run {
+    /// Exit status; -1 if a signal ended it.
+    pub status: i32,
+    /// What it wrote to standard output.
+    pub stdout: String,
+    /// What it wrote to standard error.
+    pub stderr: String,
+}
+
+/// Runs the program `faceformer` to its end.
+///
+/// # Panics
+/// If it cannot be built or started.
+pub fn faceformer<I: IntoIterator<Item: AsRef<OsStr>>>(arguments: I) -> Run {
+    Run::with_input(arguments, b"")
+}
+
+impl Run {
+    /// Runs the program `faceformer` with the given standard input.
+    ///
+    /// # Panics
+    /// If it cannot be built or started.
+    pub fn with_input<I: IntoIterator<Item: AsRef<OsStr>>>(arguments: I, input: &[u8]) -> Self {
+        static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
+        let mut child = Command::new(PROGRAM.get_or_init(program))
+            .args(arguments)
+            .current_dir(root())
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("the program can be started");
+        // A program that refuses its arguments does not read; then the pipe breaks, and that is
+        // no fault of the test.
+        let mut stdin = child.stdin.take().expect("it was asked for");
+        let input = input.to_owned();
+        let writer = std::thread::spawn(move || stdin.write_all(&input));
+        let output = child
+            .wait_with_output()
+            .expect("the program can be waited for");
+        writer.join().expect("writing does not panic").ok();
+        Self {
+            status: output.status.code().unwrap_or(-1),
+            stdout: String::from_utf8_lossy(&output.stdout).into_owned(),
+            stderr: String::from_utf8_lossy(&output.stderr).into_owned(),
+        }
+    }
+
+    /// The run, which must have succeeded.
+    ///
+    /// # Panics
+    /// If the status is not 0, with what the program said.
+    pub fn ok(self) -> Self {
+        assert_eq!(self.status, 0, "{}", self.stderr);
+        self
+    }
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use faceformer::identify::metrics::Summary;
+use faceformer::identify::metrics::{Summary, median};
 use serde::Serialize;
 
 use super::measure::Measured;
@@ -13,13 +13,43 @@ use super::measure::Measured;
 pub(crate) struct Figures {
     #[serde(flatten)]
     summary: Summary,
+    #[serde(flatten)]
+    solids: Option<SolidFigures>,
+}
+
+/// The further figures with `--solids`.
+#[derive(Debug, Clone, Copy, Serialize)]
+struct SolidFigures {
+    /// Share of drawings whose every depth is right.
+    lifted: f64,
+    /// Share of drawings that gave a valid closed solid.
+    valid: f64,
+    /// Median time of lifting, over the drawings that could be lifted.
+    lift_ms_median: f64,
+    /// Median time of plan and solid, over the drawings that gave a valid one.
+    solid_ms_median: f64,
 }
 
 impl Figures {
     /// The figures of the measured drawings.
-    pub(crate) fn of(measured: &[Measured]) -> Self {
+    pub(crate) fn of(measured: &[Measured], solids: bool) -> Self {
+        let share = |right: fn(&Measured) -> bool| {
+            let count = measured.iter().filter(|m| right(m)).count();
+            100.0 * count as f64 / measured.len().max(1) as f64
+        };
+        let middle = |time: fn(&Measured) -> Option<f64>| {
+            let mut times: Vec<f64> = measured.iter().filter_map(time).collect();
+            times.sort_unstable_by(f64::total_cmp);
+            median(&times)
+        };
         Self {
             summary: measured.iter().map(|m| &m.score).collect(),
+            solids: solids.then(|| SolidFigures {
+                lifted: share(|m| m.lifted),
+                valid: share(|m| m.valid),
+                lift_ms_median: middle(|m| m.lift_ms),
+                solid_ms_median: middle(|m| m.solid_ms),
+            }),
         }
     }
 
@@ -47,12 +77,21 @@ impl Figures {
             s.ms_median,
             s.ms_p99,
         );
+        // Writing to a string cannot fail.
+        if let Some(s) = &self.solids {
+            writeln!(
+                text,
+                "solids  lifted    {:6.2}   valid  {:6.2}\n\
+                 time    lift median {:.3} ms   solid median {:.3} ms",
+                s.lifted, s.valid, s.lift_ms_median, s.solid_ms_median
+            )
+            .ok();
+        }
         let reasons = reasons(measured);
         if !reasons.is_empty() {
             text.push_str("\nrefused or failed (numbers masked)\n");
         }
         for ((stage, message), count) in reasons {
-            // Writing to a string cannot fail.
             writeln!(text, "{count:5}  {stage:8}  {message}").ok();
         }
         text
@@ -99,7 +138,7 @@ mod tests {
     use super::*;
     use crate::eval::measure::Failed;
 
-    fn one(messages: &[&str]) -> Measured {
+    fn one(lifted: bool, messages: &[&str]) -> Measured {
         Measured {
             score: DrawingScore {
                 faces: 4,
@@ -108,6 +147,10 @@ mod tests {
                 ms: 1.0,
                 ..DrawingScore::default()
             },
+            lifted,
+            valid: false,
+            lift_ms: lifted.then_some(3.0),
+            solid_ms: None,
             failed: messages
                 .iter()
                 .map(|message| Failed {
@@ -121,29 +164,35 @@ mod tests {
 
     #[test]
     fn json_is_one_flat_object() {
-        let measured = [one(&[]), one(&[])];
-        let value = serde_json::to_value(Figures::of(&measured)).unwrap();
+        let measured = [one(true, &[]), one(false, &[])];
+        let value = serde_json::to_value(Figures::of(&measured, true)).unwrap();
         for (key, expected) in [
             ("drawings", 2.0),
             ("faces", 8.0),
             ("precision", 50.0),
             ("recall", 50.0),
             ("exact", 0.0),
+            ("lifted", 50.0),
+            ("valid", 0.0),
+            ("lift_ms_median", 3.0),
+            ("solid_ms_median", 0.0),
         ] {
             assert_eq!(value[key].as_f64(), Some(expected), "{key}");
         }
+        let without = serde_json::to_value(Figures::of(&measured, false)).unwrap();
+        assert!(without.get("lifted").is_none());
     }
 
     #[test]
     fn reasons_are_counted_without_their_numbers() {
         let measured = [
-            one(&["vertices [1, 2, 30] open by 1.5e-3; fix"]),
-            one(&["vertices [7] open by 2e+4; fix", "other"]),
+            one(false, &["vertices [1, 2, 30] open by 1.5e-3; fix"]),
+            one(false, &["vertices [7] open by 2e+4; fix", "other"]),
         ];
         let counted = reasons(&measured);
         assert_eq!(counted[0].0.1, "vertices [#] open by #; fix");
         assert_eq!((counted[0].1, counted[1].1), (2, 1));
-        let table = Figures::of(&measured).table(&measured);
+        let table = Figures::of(&measured, true).table(&measured);
         assert!(table.contains("2  lift"), "{table}");
     }
 }

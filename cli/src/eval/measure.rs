@@ -2,11 +2,20 @@
 
 use std::time::Instant;
 
+use faceformer::Progress;
 use faceformer::drawing::{Drawing, Truth};
+use faceformer::identify::Identification;
 use faceformer::identify::metrics::DrawingScore;
+use faceformer::lift::{LiftOptions, depth_error, lift};
+use faceformer::plan::{PlanOptions, plan};
+use faceformer_occt::build;
 use serde::Serialize;
 
 use crate::stages::FacesFrom;
+
+/// Largest depth error of a drawing that counts as lifted, in drawing units (the half diagonal of
+/// the solid's bounding box is 1).
+const DEPTH_TOLERANCE: f64 = 1e-3;
 
 /// A stage that refused a drawing, or whose result is wrong.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -24,12 +33,26 @@ pub(crate) struct Failed {
 pub(crate) struct Measured {
     /// Faces and loops against the truth.
     pub(crate) score: DrawingScore,
+    /// Whether every depth is right.
+    pub(crate) lifted: bool,
+    /// Whether a valid closed solid came out.
+    pub(crate) valid: bool,
+    /// Time of lifting, in milliseconds; `None` if it was not tried or failed.
+    pub(crate) lift_ms: Option<f64>,
+    /// Time of planning, building and checking the solid, in milliseconds; `None` if it was not
+    /// tried or failed.
+    pub(crate) solid_ms: Option<f64>,
     /// What went wrong, in the order of the stages.
     pub(crate) failed: Vec<Failed>,
 }
 
 /// Takes a drawing through identification and, with `solids`, to its solid.
-pub(crate) fn measure(drawing: &Drawing, truth: &Truth, faces: &FacesFrom) -> Measured {
+pub(crate) fn measure(
+    drawing: &Drawing,
+    truth: &Truth,
+    faces: &FacesFrom,
+    solids: bool,
+) -> Measured {
     let mut failed = Vec::new();
     let mut fail = |stage, message| {
         failed.push(Failed {
@@ -48,7 +71,56 @@ pub(crate) fn measure(drawing: &Drawing, truth: &Truth, faces: &FacesFrom) -> Me
             DrawingScore::refused(truth)
         }
     };
-    Measured { score, failed }
+    let mut measured = Measured {
+        score,
+        lifted: false,
+        valid: false,
+        lift_ms: None,
+        solid_ms: None,
+        failed: Vec::new(),
+    };
+    if let (Ok(found), true) = (&found, solids) {
+        measure_solid(drawing, truth, found, &mut measured, &mut fail);
+    }
+    measured.failed = failed;
+    measured
+}
+
+fn measure_solid(
+    drawing: &Drawing,
+    truth: &Truth,
+    found: &Identification,
+    measured: &mut Measured,
+    fail: &mut dyn FnMut(&'static str, String),
+) {
+    let start = Instant::now();
+    let lifted = match lift(
+        drawing,
+        &found.faces,
+        &LiftOptions::default(),
+        Progress::none(),
+    ) {
+        Ok(lifted) => lifted,
+        Err(error) => return fail("lift", error.to_string()),
+    };
+    measured.lift_ms = Some(milliseconds(start));
+    let error = depth_error(&lifted, truth);
+    measured.lifted = error <= DEPTH_TOLERANCE;
+    if !measured.lifted {
+        fail("depth", format!("the depths are up to {error:.1e} off"));
+    }
+    let start = Instant::now();
+    let plan = match plan(drawing, &found.faces, &lifted, &PlanOptions::default()) {
+        Ok(plan) => plan,
+        Err(error) => return fail("plan", error.to_string()),
+    };
+    match build(&plan, Progress::none()) {
+        Ok(_) => {
+            measured.valid = true;
+            measured.solid_ms = Some(milliseconds(start));
+        }
+        Err(error) => fail("build", error.to_string()),
+    }
 }
 
 fn milliseconds(start: Instant) -> f64 {

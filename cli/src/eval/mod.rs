@@ -49,7 +49,7 @@ pub(crate) fn run(args: &EvalArgs) -> Result<(), Failure> {
         if !selected(args.shapes, truth) {
             continue;
         }
-        measured.push(measure(&drawing, truth, &faces));
+        measured.push(measure(&drawing, truth, &faces, args.solids));
         bar.advance(measured.len());
     }
     bar.clear();
@@ -66,7 +66,7 @@ pub(crate) fn run(args: &EvalArgs) -> Result<(), Failure> {
         }
         finish(Some(output), &lines)?;
     }
-    let figures = Figures::of(&measured);
+    let figures = Figures::of(&measured, args.solids);
     if args.json {
         print(&json_line(&figures)?)
     } else {

@@ -1,10 +1,16 @@
 //! `faceformer render`: a picture of a drawing and its faces.
 
+mod built;
+mod mesh;
+mod owner;
 mod page;
+mod painter;
 mod palette;
 mod polygon;
 mod raster;
+mod solid_view;
 mod view;
+mod visible;
 mod wireframe;
 
 use std::path::Path;
@@ -17,6 +23,7 @@ use crate::args::RenderArgs;
 use crate::failure::Failure;
 use crate::output::Output;
 use crate::stages::{FacesFrom, tell, usable};
+use built::Built;
 use page::{Anchor, Page};
 use palette::{KINDS, Rgb};
 use view::{Frame, View};
@@ -30,7 +37,7 @@ const MARGIN: f64 = 24.0;
 const TITLE: f64 = 52.0;
 /// Height of the legend, in pixels.
 const LEGEND: f64 = 32.0;
-const INK: Rgb = Rgb(34, 38, 43);
+pub(crate) const INK: Rgb = Rgb(34, 38, 43);
 const QUIET: Rgb = Rgb(104, 112, 120);
 
 /// Formats of a picture.
@@ -64,7 +71,11 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let drawing = usable(&args.drawing)?;
     let found = FacesFrom::new(&args.faces).faces(&drawing)?;
     tell(&found.notices);
-    let svg = picture(args, &drawing, &found).to_svg();
+    let solid = args
+        .solid
+        .then(|| Built::new(&drawing, &found, args.flip, &output))
+        .transpose()?;
+    let svg = picture(args, &drawing, &found, solid.as_ref()).to_svg();
     match target {
         Target::Svg => output.write(svg.as_bytes())?,
         Target::Png => {
@@ -78,29 +89,35 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     output.commit()
 }
 
-/// The whole page: title, panel, legend.
-fn picture(args: &RenderArgs, drawing: &Drawing, found: &Identification) -> Page {
-    let width = f64::from(args.width);
+/// The whole page: title, panels, legend.
+fn picture(
+    args: &RenderArgs,
+    drawing: &Drawing,
+    found: &Identification,
+    solid: Option<&Built>,
+) -> Page {
+    let panels = if solid.is_some() { 2.0 } else { 1.0 };
+    let width = args.width.map_or(480.0 + 480.0 * panels, f64::from);
     let points = || drawing.edges.iter().flat_map(|e| e.points.iter().copied());
     let (min, max) = view::bounds(points());
-    let inner = width - 2.0 * MARGIN;
+    let inner = (width - (panels + 1.0) * MARGIN) / panels;
     let chrome = TITLE + LEGEND + 2.0 * MARGIN;
     let height = match args.height {
         Some(height) => f64::from(height).max(chrome + 32.0),
         None => {
             let aspect = (max.y - min.y) / (max.x - min.x);
             let aspect = if aspect.is_finite() { aspect } else { 1.0 };
-            (chrome + inner * aspect.clamp(0.4, 1.0)).round()
+            (chrome + inner * aspect.clamp(0.5, 1.0)).round()
         }
     };
     let mut page = Page::new(width, height);
-    draw_title(&mut page, args, drawing, found);
-    let frame = Frame {
-        corner: DVec2::new(MARGIN, TITLE + MARGIN),
+    let frame = |panel: f64| Frame {
+        corner: DVec2::new(MARGIN + panel * (inner + MARGIN), TITLE + MARGIN),
         size: DVec2::new(inner, height - chrome),
     };
-    let view = View::fit(points(), frame);
     let colours = colours(found);
+    let view = View::fit(points(), frame(0.0));
+    draw_title(&mut page, args, drawing, found);
     wireframe::draw(
         &mut page,
         &view,
@@ -109,6 +126,9 @@ fn picture(args: &RenderArgs, drawing: &Drawing, found: &Identification) -> Page
         &colours,
         args.labels,
     );
+    if let Some(built) = solid {
+        built.draw(&mut page, frame(1.0), drawing, found, &colours);
+    }
     draw_legend(&mut page, height - LEGEND, drawing, found);
     page
 }

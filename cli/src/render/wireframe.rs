@@ -4,6 +4,7 @@ use faceformer::drawing::{CoEdge, Drawing};
 use faceformer::identify::Face;
 use glam::DVec2;
 
+use super::INK;
 use super::page::{Anchor, Page, Stroke};
 use super::palette::Rgb;
 use super::polygon;
@@ -20,7 +21,6 @@ pub(crate) enum Labels {
     Edges,
 }
 
-const INK: Rgb = Rgb(34, 38, 43);
 const PATCH_OPACITY: f64 = 0.38;
 
 /// Draws the faces, the edges on top and the labels. `colours` has one entry a face. Edges that
@@ -35,7 +35,12 @@ pub(crate) fn draw(
 ) {
     let rings: Vec<Vec<Vec<DVec2>>> = faces
         .iter()
-        .map(|face| face.loops.iter().map(|l| ring(view, drawing, l)).collect())
+        .map(|face| {
+            let rings = face.loops.iter().map(|l| ring(drawing, l));
+            rings
+                .map(|r| r.into_iter().map(|p| view.place(p)).collect())
+                .collect()
+        })
         .collect();
     // Large patches first, so that small ones stay visible on top.
     let mut order: Vec<usize> = (0..faces.len()).collect();
@@ -69,9 +74,11 @@ pub(crate) fn draw(
             }
         }
         Labels::Edges => {
+            let mut taken = Vec::new();
             for (e, edge) in drawing.edges.iter().enumerate() {
                 let points: Vec<DVec2> = edge.points.iter().map(|p| view.place(*p)).collect();
-                let at = midpoint(&points);
+                let at = free_place(&points, &taken, 1.6 * view.unit());
+                taken.push(at);
                 let number = (e + 1).to_string();
                 page.text(at, &number, 1.2 * view.unit(), INK, Anchor::Middle, true);
             }
@@ -103,28 +110,27 @@ fn draw_edges(page: &mut Page, view: &View, drawing: &Drawing, faces: &[Face]) {
     }
 }
 
-/// The points of a loop in page coordinates; the last point is not repeated.
-fn ring(view: &View, drawing: &Drawing, coedges: &[CoEdge]) -> Vec<DVec2> {
+/// The points of a loop in drawing units; the last point is not repeated.
+pub(crate) fn ring(drawing: &Drawing, coedges: &[CoEdge]) -> Vec<DVec2> {
     let mut points = Vec::new();
     for c in coedges {
         let Some(edge) = drawing.edges.get(c.edge()) else {
             continue;
         };
         let ends = edge.points.len().saturating_sub(1);
-        let place = |p: &DVec2| view.place(*p);
         if c.is_reversed() {
-            points.extend(edge.points.iter().rev().take(ends).map(place));
+            points.extend(edge.points.iter().rev().take(ends));
         } else {
-            points.extend(edge.points.iter().take(ends).map(place));
+            points.extend(edge.points.iter().take(ends));
         }
     }
     points
 }
 
-/// The point halfway along a polyline.
-fn midpoint(points: &[DVec2]) -> DVec2 {
+/// The point of a polyline at a share of its length, 0 to 1.
+fn along(points: &[DVec2], share: f64) -> DVec2 {
     let total: f64 = points.windows(2).map(|w| w[0].distance(w[1])).sum();
-    let mut left = total / 2.0;
+    let mut left = total * share;
     for w in points.windows(2) {
         let length = w[0].distance(w[1]);
         if left <= length && length > 0.0 {
@@ -132,7 +138,17 @@ fn midpoint(points: &[DVec2]) -> DVec2 {
         }
         left -= length;
     }
-    points.first().copied().unwrap_or(DVec2::ZERO)
+    points.last().copied().unwrap_or(DVec2::ZERO)
+}
+
+/// A place on a polyline, near its middle, that is at least `gap` away from those in `taken` if
+/// there is one.
+fn free_place(points: &[DVec2], taken: &[DVec2], gap: f64) -> DVec2 {
+    [0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8]
+        .into_iter()
+        .map(|share| along(points, share))
+        .find(|p| taken.iter().all(|t| t.distance(*p) >= gap))
+        .unwrap_or_else(|| along(points, 0.5))
 }
 
 fn mean<'a>(points: impl Iterator<Item = &'a DVec2>) -> Option<DVec2> {
@@ -145,9 +161,19 @@ mod tests {
     use super::*;
 
     #[test]
-    fn midpoint_is_halfway_by_length() {
+    fn shares_are_of_the_length() {
         let points = [DVec2::ZERO, DVec2::X, DVec2::new(1.0, 3.0)];
-        assert_eq!(midpoint(&points), DVec2::new(1.0, 1.0));
-        assert_eq!(midpoint(&[DVec2::ONE, DVec2::ONE]), DVec2::ONE);
+        assert_eq!(along(&points, 0.5), DVec2::new(1.0, 1.0));
+        assert_eq!(along(&points, 1.0), points[2]);
+        assert_eq!(along(&[DVec2::ONE, DVec2::ONE], 0.5), DVec2::ONE);
+    }
+
+    #[test]
+    fn a_taken_middle_is_left_free() {
+        let points = [DVec2::ZERO, DVec2::new(10.0, 0.0)];
+        let place = |taken: &[DVec2]| free_place(&points, taken, 1.5).x;
+        assert_eq!(place(&[]), 5.0);
+        assert_eq!(place(&[DVec2::new(5.0, 0.0)]), 3.0);
+        assert_eq!(place(&[DVec2::new(4.5, 0.0)]), 6.0);
     }
 }
