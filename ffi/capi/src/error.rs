@@ -50,9 +50,6 @@ pub(crate) enum CallError {
     /// A stage before the CAD kernel failed.
     #[error(transparent)]
     Stage(#[from] faceformer::Error),
-    /// This build has no CAD kernel.
-    #[error("this build of the library cannot make solids yet")]
-    NoKernel,
     /// The CAD kernel failed.
     #[error(transparent)]
     Kernel(#[from] OcctError),
@@ -74,11 +71,9 @@ impl CallError {
                     | IdentifyError::UnknownEngine(_),
                 ),
             ) => FaceformerStatus::BadInput,
-            Self::Stage(_)
-            | Self::Kernel(_)
-            | Self::PartialWrite
-            | Self::NoKernel
-            | Self::Json(_) => FaceformerStatus::Failed,
+            Self::Stage(_) | Self::Kernel(_) | Self::PartialWrite | Self::Json(_) => {
+                FaceformerStatus::Failed
+            }
             Self::Null(_)
             | Self::TooLong { .. }
             | Self::Utf8 { .. }

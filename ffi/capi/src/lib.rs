@@ -40,3 +40,11 @@ pub use solid::{
 };
 pub use status::FaceformerStatus;
 pub use version::FACEFORMER_ABI_VERSION;
+
+/// The header promises that several threads may use a handle at once.
+const _: () = {
+    const fn shared_between_threads<T: Send + Sync>() {}
+    shared_between_threads::<FaceformerDrawing>();
+    shared_between_threads::<FaceformerFaces>();
+    shared_between_threads::<FaceformerSolid>();
+};

@@ -1,9 +1,14 @@
 //! Solids: depth, plan and the CAD kernel in one call.
 
 use std::ffi::{c_char, c_void};
+use std::path::Path;
 use std::sync::Arc;
 
-use serde::Deserialize;
+use faceformer::lift::{self, Lift, LiftOptions};
+use faceformer::plan::{self, Orientation, Plan, PlanOptions};
+use faceformer::{Progress, Stage};
+use faceformer_occt::{Format, OcctError, Solid, SolidReport};
+use serde::{Deserialize, Serialize};
 
 use crate::FaceformerStatus;
 use crate::drawing::FaceformerDrawing;
@@ -11,20 +16,52 @@ use crate::error::CallError;
 use crate::faces::FaceformerFaces;
 use crate::guard::{Out, guard};
 use crate::input;
-use crate::memory::free_handle;
-use crate::progress::FaceformerProgress;
+use crate::memory::{free_handle, new_bytes, new_json};
+use crate::progress::{FaceformerProgress, Watcher};
+
+/// Names of the file formats, as `faceformer_solid_write` takes them.
+pub(crate) const FORMATS: [&str; 3] = ["step", "brep", "stl"];
 
 /// A valid closed solid, or what could be built of its shell before an error.
 ///
 /// It never changes: several threads may use it at once.
-pub struct FaceformerSolid(std::convert::Infallible);
+pub struct FaceformerSolid {
+    shape: Shape,
+    lift: Lift,
+    plan: Plan,
+}
 
-#[derive(Debug, Default, Deserialize)]
+enum Shape {
+    Whole(Solid),
+    /// The error that ended the build, which has the partial shell.
+    Partial(OcctError),
+}
+
+#[derive(Debug, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 struct SolidOptions {
     flip: bool,
-    scale: Option<f64>,
-    orientation: Option<String>,
+    scale: f64,
+    orientation: Orientation,
+}
+
+impl Default for SolidOptions {
+    fn default() -> Self {
+        Self {
+            flip: false,
+            scale: 1.0,
+            orientation: Orientation::default(),
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct Report<'a> {
+    partial: bool,
+    report: Option<&'a SolidReport>,
+    error: Option<String>,
+    lift: &'a Lift,
+    plan: &'a Plan,
 }
 
 /// Makes a solid from a drawing and its faces: depth, plan, and OpenCASCADE's B-rep of it.
@@ -69,16 +106,54 @@ pub unsafe extern "C" fn faceformer_solid(
         let faces = unsafe { input::handle(faces, "faces") }?;
         // SAFETY: null or valid for reads of `len` bytes by this function's contract.
         let options: SolidOptions = unsafe { input::options(options_json, len) }?;
-        let _ = (options.flip, options.orientation, callback, user);
-        if !Arc::ptr_eq(&drawing.0, &faces.drawing) {
-            return Err(CallError::OtherDrawing);
-        }
-        let scale = options.scale.unwrap_or(1.0);
-        if !(scale.is_finite() && scale > 0.0) {
-            return Err(CallError::Scale(scale));
-        }
-        Err(CallError::NoKernel)
+        // SAFETY: the callback may be called with `user` by this function's contract.
+        let watcher = unsafe { Watcher::new(callback, user) };
+        let report = |stage, share| watcher.report(stage, share);
+        let (lift, plan) = place(drawing, faces, &options, Progress::new(&report))?;
+        let (shape, outcome) = match faceformer_occt::build(&plan, Progress::new(&report)) {
+            Ok(solid) => (Shape::Whole(solid), Ok(())),
+            Err(error) if error.partial().is_some() => {
+                (Shape::Partial(error.clone()), Err(error.into()))
+            }
+            Err(error) => return Err(error.into()),
+        };
+        out.put(Box::into_raw(Box::new(FaceformerSolid {
+            shape,
+            lift,
+            plan,
+        })));
+        outcome
     })
+}
+
+/// Finds depth and plans the B-rep.
+fn place(
+    drawing: &FaceformerDrawing,
+    faces: &FaceformerFaces,
+    options: &SolidOptions,
+    progress: Progress<'_>,
+) -> Result<(Lift, Plan), CallError> {
+    if !Arc::ptr_eq(&drawing.0, &faces.drawing) {
+        return Err(CallError::OtherDrawing);
+    }
+    let scale = options.scale;
+    if !(scale.is_finite() && scale > 0.0) {
+        return Err(CallError::Scale(scale));
+    }
+    let (drawing, faces) = (&drawing.0.drawing, &faces.found.faces);
+    let lift = lift::lift(
+        drawing,
+        faces,
+        &LiftOptions { flip: options.flip },
+        progress,
+    )?;
+    progress.report(Stage::Plan, 0.0)?;
+    let plan_options = PlanOptions {
+        scale,
+        orientation: options.orientation,
+    };
+    let plan = plan::plan(drawing, faces, &lift, &plan_options)?;
+    Ok((lift, plan))
 }
 
 /// Tells how the solid came about and what it is, as a JSON object: `{"partial": false, "report":
@@ -105,7 +180,19 @@ pub unsafe extern "C" fn faceformer_solid_report(
     guard(&message, || {
         json.check()?;
         // SAFETY: a live handle or null by this function's contract.
-        match unsafe { input::handle(solid, "solid") }?.0 {}
+        let FaceformerSolid { shape, lift, plan } = unsafe { input::handle(solid, "solid") }?;
+        let (report, error) = match shape {
+            Shape::Whole(solid) => (Some(solid.report()), None),
+            Shape::Partial(error) => (None, Some(error.to_string())),
+        };
+        json.put(new_json(&Report {
+            partial: report.is_none(),
+            report,
+            error,
+            lift,
+            plan,
+        })?);
+        Ok(())
     })
 }
 
@@ -137,7 +224,14 @@ pub unsafe extern "C" fn faceformer_solid_brep(
         bytes.check()?;
         length.check()?;
         // SAFETY: a live handle or null by this function's contract.
-        match unsafe { input::handle(solid, "solid") }?.0 {}
+        let text = match &unsafe { input::handle(solid, "solid") }?.shape {
+            Shape::Whole(solid) => solid.brep()?,
+            Shape::Partial(error) => error.partial().unwrap_or_default().to_vec(),
+        };
+        let (start, len) = new_bytes(text);
+        bytes.put(start);
+        length.put(len);
+        Ok(())
     })
 }
 
@@ -166,8 +260,21 @@ pub unsafe extern "C" fn faceformer_solid_write(
     let message = unsafe { Out::null(message, "message") };
     guard(&message, || {
         // SAFETY: a live handle or null by this function's contract.
-        let _ = (path, format);
-        match unsafe { input::handle(solid, "solid") }?.0 {}
+        let solid = unsafe { input::handle(solid, "solid") }?;
+        // SAFETY: null or zero-terminated by this function's contract.
+        let (path, format) = unsafe {
+            (
+                input::c_text(path, "path")?,
+                input::c_text(format, "format")?,
+            )
+        };
+        let format: Format = format
+            .parse()
+            .map_err(|_| CallError::Format(format.to_owned()))?;
+        match &solid.shape {
+            Shape::Whole(solid) => Ok(solid.write(Path::new(path), format)?),
+            Shape::Partial(_) => Err(CallError::PartialWrite),
+        }
     })
 }
 
@@ -181,4 +288,166 @@ pub unsafe extern "C" fn faceformer_solid_free(solid: *mut FaceformerSolid) {
     unsafe { free_handle(solid) };
 }
 
-pub(crate) const FORMATS: [&str; 3] = ["step", "brep", "stl"];
+#[cfg(test)]
+mod tests {
+    use std::ffi::CString;
+
+    use super::*;
+    use crate::testing::{self, BOX_FACES, Drawing, Faces, Solid as Built};
+
+    fn parts() -> (Drawing, Faces) {
+        let drawing = Drawing::read(testing::box_json().as_bytes()).unwrap();
+        let faces = Faces::read(&drawing, BOX_FACES).unwrap();
+        (drawing, faces)
+    }
+
+    /// A path in the system's folder for such files, of this process alone.
+    fn temporary(name: &str) -> (std::path::PathBuf, CString) {
+        let path = std::env::temp_dir().join(format!("faceformer-{}-{name}", std::process::id()));
+        let text = CString::new(path.to_str().unwrap()).unwrap();
+        (path, text)
+    }
+
+    #[test]
+    fn a_box_has_its_volume_at_every_option() {
+        let (drawing, faces) = parts();
+        for (options, volume) in [
+            ("{}", 24.0),
+            (r#"{"scale": 2}"#, 192.0),
+            (r#"{"flip": true, "orientation": "drawn"}"#, 24.0),
+        ] {
+            let report = Built::build(&drawing, &faces, options).unwrap().report();
+            assert_eq!(report["partial"], false);
+            let found = report["report"]["volume"].as_f64().unwrap();
+            assert!((found / volume - 1.0).abs() < 1e-6, "{options}: {found}");
+            assert_eq!(report["report"]["face_counts"]["plane"], 6);
+            assert_eq!(report["lift"]["depths"].as_array().unwrap().len(), 8);
+            assert_eq!(report["plan"]["faces"].as_array().unwrap().len(), 6);
+        }
+    }
+
+    #[test]
+    fn every_format_is_written() {
+        let (drawing, faces) = parts();
+        let solid = Built::build(&drawing, &faces, "{}").unwrap();
+        let brep = String::from_utf8(solid.brep()).unwrap();
+        assert!(
+            brep.lines()
+                .take(3)
+                .any(|line| line.starts_with("CASCADE Topology V1")),
+            "{brep}"
+        );
+        for format in FORMATS {
+            let (path, text) = temporary(&format!("box.{format}"));
+            solid.write(&text, &CString::new(format).unwrap()).unwrap();
+            assert!(std::fs::metadata(&path).unwrap().len() > 100);
+            std::fs::remove_file(path).unwrap();
+        }
+        let (_, text) = temporary("box.gif");
+        assert_eq!(
+            solid.write(&text, c"gif").unwrap_err().0,
+            FaceformerStatus::BadInput
+        );
+        let (status, message) = solid
+            .write(c"no/such/folder/box.step", c"step")
+            .unwrap_err();
+        assert_eq!(status, FaceformerStatus::Failed);
+        assert!(message.contains("no/such/folder"), "{message}");
+    }
+
+    #[test]
+    fn every_stage_can_be_cancelled() {
+        let (drawing, faces) = parts();
+        for stage in [c"lift", c"plan", c"build"] {
+            let status = Built::stop_at(&drawing, &faces, stage);
+            assert_eq!(status, FaceformerStatus::Cancelled, "{stage:?}");
+        }
+        assert_eq!(
+            Built::stop_at(&drawing, &faces, c"never"),
+            FaceformerStatus::Ok
+        );
+    }
+
+    #[test]
+    fn what_does_not_fit_is_bad_input() {
+        let (drawing, faces) = parts();
+        for options in [
+            r#"{"scale": 0}"#,
+            r#"{"scale": -1}"#,
+            r#"{"scale": 1e999}"#,
+            r#"{"scale": NaN}"#,
+            r#"{"orientation": "sideways"}"#,
+            r#"{"mirror": true}"#,
+        ] {
+            let (status, message) = Built::build(&drawing, &faces, options).unwrap_err();
+            assert_eq!(status, FaceformerStatus::BadInput, "{options}: {message}");
+        }
+        let (other, _) = parts();
+        let (status, message) = Built::build(&other, &faces, "{}").unwrap_err();
+        assert_eq!(status, FaceformerStatus::BadInput);
+        assert!(message.contains("another drawing"), "{message}");
+    }
+
+    #[test]
+    fn an_open_box_fails_by_name() {
+        let (drawing, faces) = parts();
+        let mut open = faces.json();
+        open["faces"].as_array_mut().unwrap().pop();
+        let open = Faces::read(&drawing, &open.to_string()).unwrap();
+        let (status, message) = Built::build(&drawing, &open, "{}").unwrap_err();
+        assert_eq!(status, FaceformerStatus::Failed);
+        assert!(message.contains("edge"), "{message}");
+    }
+
+    #[test]
+    fn a_partial_shell_is_handed_over() {
+        let (drawing, faces) = parts();
+        let whole = Built::build(&drawing, &faces, "{}").unwrap();
+        // SAFETY: a live handle.
+        let FaceformerSolid { lift, plan, .. } = unsafe { &*whole.0 };
+        let error = OcctError::Face {
+            face: 3,
+            what: "it is torn".into(),
+            partial: b"shell".into(),
+        };
+        let shape = Shape::Partial(error);
+        let (lift, plan) = (lift.clone(), plan.clone());
+        let partial = Built(Box::into_raw(Box::new(FaceformerSolid {
+            shape,
+            lift,
+            plan,
+        })));
+        let report = partial.report();
+        assert_eq!(report["partial"], true);
+        assert!(report["report"].is_null());
+        assert!(report["error"].as_str().unwrap().contains("face 3"));
+        assert_eq!(partial.brep(), b"shell");
+        let (path, text) = temporary("partial.step");
+        assert_eq!(
+            partial.write(&text, c"step").unwrap_err().0,
+            FaceformerStatus::Failed
+        );
+        assert!(!path.exists());
+    }
+
+    #[test]
+    fn threads_share_a_solid() {
+        let (drawing, faces) = parts();
+        let solid = Built::build(&drawing, &faces, "{}").unwrap();
+        // A raw pointer is no `Sync`; the handle behind it is.
+        let address = solid.0 as usize;
+        std::thread::scope(|scope| {
+            for i in 0..4 {
+                scope.spawn(move || {
+                    let shared = std::mem::ManuallyDrop::new(Built(address as *mut _));
+                    let (path, text) = temporary(&format!("thread-{i}.step"));
+                    for _ in 0..3 {
+                        shared.write(&text, c"step").unwrap();
+                        assert!(shared.brep().len() > 100);
+                    }
+                    std::fs::remove_file(path).unwrap();
+                });
+            }
+        });
+    }
+}
