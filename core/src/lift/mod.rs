@@ -5,6 +5,7 @@
 //! 3. they are solved as least squares if they agree, in the L1 norm if not,
 //! 4. every plane and cylinder gets its surface.
 
+mod assumed;
 mod circle;
 mod conflicts;
 pub mod directions;

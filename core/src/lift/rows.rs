@@ -22,6 +22,14 @@ pub(super) enum Tag {
     Chord { edge: usize },
     /// Two circles of a surface of revolution have their centres on one axis.
     Coaxial { face: usize },
+    /// An edge is parallel to the longest one that is drawn parallel.
+    Parallel { edge: usize },
+    /// A planar face is the end of a right prism.
+    Prism { face: usize },
+    /// The end of a frustum is centred.
+    Frustum { face: usize },
+    /// Two points of a cylinder's boundary are on one line along its axis.
+    Generator { face: usize },
 }
 
 /// Index of an unknown.
@@ -59,9 +67,6 @@ impl Unknowns {
         self.planes[face]
     }
 }
-
-/// Rows that are taken in turn as long as depths are open, and only where they are.
-pub(super) const LEVELS: [fn(&Sheet<'_>, &Unknowns) -> System<Tag>; 0] = [];
 
 /// The rows that need no guess.
 pub(super) fn certain(sheet: &Sheet<'_>, unknowns: &Unknowns) -> System<Tag> {
@@ -177,7 +182,11 @@ fn chords(sheet: &Sheet<'_>, system: &mut System<Tag>) {
 
 /// Centres of a surface's circles are on its axis. A centre's depth follows from a vertex of the
 /// circle, because the circle's plane is normal to the axis.
-fn coaxial(sheet: &Sheet<'_>, system: &mut System<Tag>, is_revolved: impl Fn(SurfaceKind) -> bool) {
+pub(super) fn coaxial(
+    sheet: &Sheet<'_>,
+    system: &mut System<Tag>,
+    is_revolved: impl Fn(SurfaceKind) -> bool,
+) {
     for (face, f) in sheet.faces.iter().enumerate() {
         if !is_revolved(f.kind) {
             continue;

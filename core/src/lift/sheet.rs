@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::circle::{DrawnCircle, circle_through};
-use super::directions::{AGREE, Directions};
+use super::directions::{AGREE, Directions, Evidence};
 use crate::drawing::{Curve2, Drawing, SurfaceKind};
 use crate::identify::Face;
 
@@ -21,8 +21,12 @@ pub(super) struct Sheet<'a> {
     pub(super) corners: Vec<Vec<usize>>,
     /// Mean of each face's vertices.
     pub(super) middles: Vec<DVec2>,
+    /// Straight edges without an axis that are drawn parallel, longest first.
+    pub(super) parallels: Vec<Vec<usize>>,
     /// Edges of each face, sorted, each once.
     edges: Vec<Vec<usize>>,
+    /// Edges at each vertex.
+    edges_at: Vec<Vec<usize>>,
     /// Faces at each edge.
     faces_of: Vec<Vec<usize>>,
 }
@@ -59,8 +63,24 @@ impl<'a> Sheet<'a> {
         for (face, list) in face_edges.iter().enumerate() {
             list.iter().for_each(|&e| faces_of[e].push(face));
         }
+        let mut edges_at = vec![Vec::new(); drawing.vertices.len()];
+        for (e, edge) in drawing.edges.iter().enumerate() {
+            edges_at[edge.v[0]].push(e);
+            if edge.v[1] != edge.v[0] {
+                edges_at[edge.v[1]].push(e);
+            }
+        }
+        let evidence = Evidence::new(drawing, directions.precision);
+        let parallels = evidence
+            .clusters
+            .iter()
+            .map(|c| evidence.edges_of(c).collect())
+            .filter(|c: &Vec<usize>| c.len() > 1 && c.iter().all(|&e| edge_axis[e].is_none()))
+            .collect();
         Self {
+            parallels,
             edges: face_edges,
+            edges_at,
             faces_of,
             drawing,
             faces,
@@ -89,6 +109,38 @@ impl<'a> Sheet<'a> {
     /// Faces at an edge.
     pub(super) fn neighbours(&self, edge: usize) -> &[usize] {
         &self.faces_of[edge]
+    }
+
+    /// Vertices of a face with the straight edges that leave it there.
+    pub(super) fn leaving(&self, face: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
+        self.corners[face].iter().flat_map(move |&v| {
+            let edges = self.edges_at[v].iter().copied();
+            let outside = move |&e: &usize| !self.edges[face].contains(&e) && self.is_straight(e);
+            edges.filter(outside).map(move |e| (v, e))
+        })
+    }
+
+    /// The axis that a planar face is normal to, if its straight edges follow the two others.
+    pub(super) fn normal_axis(&self, face: usize) -> Option<usize> {
+        let mut follows = [false; 3];
+        for k in self.edges[face].iter().filter_map(|&e| self.edge_axis[e]) {
+            follows[k] = true;
+        }
+        match follows {
+            [false, true, true] => Some(0),
+            [true, false, true] => Some(1),
+            [true, true, false] => Some(2),
+            _ => None,
+        }
+    }
+
+    /// Points of a curved edge: its ends, and points at thirds.
+    pub(super) fn samples(&self, edge: usize) -> impl Iterator<Item = DVec2> + '_ {
+        let points = &self.drawing.edges[edge].points;
+        let last = points.len() - 1;
+        [0, last / 3, 2 * last / 3, last]
+            .into_iter()
+            .map(|i| points[i])
     }
 
     pub(super) fn is_straight(&self, edge: usize) -> bool {

@@ -1,24 +1,29 @@
 //! Solving the depth problem of one reading: exactly if its rows agree, else in the L1 norm and
 //! then exactly once more over the rows that agree.
 
+use super::assumed::LEVELS;
 use super::rows::{self, Tag, Unknowns};
 use super::sheet::Sheet;
-use super::system::{NullSpace, Solution, System};
+use super::system::{NullSpace, System};
 use super::{LiftError, LiftMethod};
 
 /// Standard errors beyond which a row is wrong.
 const WRONG: f64 = 10.0;
 
-/// Rounds of weighing planes by their slope; of dropping and taking back rows.
-const ROUNDS: usize = 3;
+/// Rounds of weighing planes by their slope.
+const WEIGHINGS: usize = 3;
+
+/// Rounds of dropping and taking back rows.
+const ROUNDS: usize = 4;
 
 /// A solved reading.
 pub(super) struct Solved {
-    pub(super) unknowns: Unknowns,
-    pub(super) system: System<Tag>,
-    pub(super) solution: Solution,
+    unknowns: Unknowns,
+    system: System<Tag>,
+    x: Vec<f64>,
+    null_space: NullSpace,
     /// Which rows were kept.
-    pub(super) active: Vec<bool>,
+    active: Vec<bool>,
     pub(super) method: LiftMethod,
 }
 
@@ -28,34 +33,30 @@ impl Solved {
         self.active.iter().filter(|a| !**a).count()
     }
 
-    /// Largest residual of the rows kept that are lengths, drawing units; those of planes are
-    /// distances from the plane.
-    pub(super) fn residual(&self) -> f64 {
-        let rows = self.system.rows().iter().zip(&self.solution.residuals);
-        rows.zip(&self.active)
-            .filter(|(_, active)| **active)
-            .map(|((row, r), _)| match row.tag {
-                Tag::Incidence { face, .. } => self.unknowns.plane(face).map_or(0.0, |p| {
-                    let (a, b) = (self.solution.x[p], self.solution.x[p + 1]);
-                    r.abs() / (1.0 + a * a + b * b).sqrt()
-                }),
-                Tag::Alignment { .. } | Tag::Disc { .. } => 0.0,
-                _ => r.abs(),
-            })
-            .fold(0.0, f64::max)
-    }
-
     pub(super) fn depth(&self, vertex: usize) -> f64 {
-        self.solution.x[vertex]
+        self.x[vertex]
     }
 
     /// (a, b, c) of a planar face, if the rows determine its slope.
     pub(super) fn plane(&self, face: usize) -> Option<[f64; 3]> {
         let p = self.unknowns.plane(face)?;
-        let null = &self.solution.null_space;
-        let fixed = !null.is_free(p) && !null.is_free(p + 1);
-        let x = &self.solution.x;
-        fixed.then(|| [x[p], x[p + 1], x[p + 2]])
+        let fixed = !self.null_space.is_free(p) && !self.null_space.is_free(p + 1);
+        fixed.then(|| [self.x[p], self.x[p + 1], self.x[p + 2]])
+    }
+
+    /// Largest residual of the rows kept that are lengths, drawing units; those of planes are
+    /// distances from the plane.
+    pub(super) fn residual(&self) -> f64 {
+        let rows = self.system.rows().iter().zip(&self.active);
+        rows.filter(|(_, active)| **active)
+            .map(|(row, _)| match row.tag {
+                Tag::Incidence { face, .. } => {
+                    row.residual(&self.x).abs() / steepness(&self.unknowns, &self.x, face)
+                }
+                Tag::Alignment { .. } | Tag::Disc { .. } | Tag::Prism { .. } => 0.0,
+                _ => row.residual(&self.x).abs(),
+            })
+            .fold(0.0, f64::max)
     }
 }
 
@@ -63,11 +64,12 @@ pub(super) fn solve(sheet: &Sheet<'_>) -> Result<Solved, LiftError> {
     let unknowns = Unknowns::new(sheet);
     let mut system = rows::certain(sheet, &unknowns);
     let mut null_space = system.null_space()?;
-    for level in rows::LEVELS {
+    for level in LEVELS {
         if loose(&unknowns, &null_space).is_empty() {
             break;
         }
-        let more = level(sheet, &unknowns);
+        let mut more = System::new(system.unknowns());
+        level(sheet, &unknowns, &mut more);
         let before = system.rows().len();
         for row in more.rows() {
             if null_space.leaves_open(&row.terms) {
@@ -81,28 +83,30 @@ pub(super) fn solve(sheet: &Sheet<'_>) -> Result<Solved, LiftError> {
     refuse_loose(&unknowns, &null_space)?;
     let base: Vec<f64> = system.rows().iter().map(|r| r.weight).collect();
     let mut active = vec![true; system.rows().len()];
-    let mut solution = settle(&mut system, &unknowns, &base, &active)?;
+    let mut x = settle(&mut system, &unknowns, &base, &active)?;
     let mut method = LiftMethod::Exact;
-    if solution.worst(&system) > WRONG {
+    if agreeing(&system, &x).contains(&false) {
         method = LiftMethod::L1;
         restore(&mut system, &base);
-        solution = system.least_absolute()?;
+        x = system.least_absolute()?.x;
         for _ in 0..ROUNDS {
-            weigh(&mut system, &unknowns, &base, &solution);
-            let agreeing = agreeing(&system, &solution);
-            let same = agreeing == active;
-            active = agreeing;
+            weigh(&mut system, &unknowns, &base, &x);
+            let next = agreeing(&system, &x);
+            let same = next == active;
+            active = next;
             if same {
                 break;
             }
-            solution = settle(&mut system, &unknowns, &base, &active)?;
+            x = settle(&mut system, &unknowns, &base, &active)?;
         }
-        refuse_loose(&unknowns, &solution.null_space)?;
+        null_space = system.null_space_of(&active)?;
+        refuse_loose(&unknowns, &null_space)?;
     }
     Ok(Solved {
         unknowns,
         system,
-        solution,
+        x,
+        null_space,
         active,
         method,
     })
@@ -114,15 +118,15 @@ fn settle(
     unknowns: &Unknowns,
     base: &[f64],
     active: &[bool],
-) -> Result<Solution, LiftError> {
+) -> Result<Vec<f64>, LiftError> {
     restore(system, base);
-    let mut solution = system.least_squares_of(active)?;
-    for _ in 1..ROUNDS {
-        weigh(system, unknowns, base, &solution);
-        solution = system.least_squares_of(active)?;
+    let mut x = system.minimise(active)?;
+    for _ in 1..WEIGHINGS {
+        weigh(system, unknowns, base, &x);
+        x = system.minimise(active)?;
     }
-    weigh(system, unknowns, base, &solution);
-    Ok(solution)
+    weigh(system, unknowns, base, &x);
+    Ok(x)
 }
 
 fn restore(system: &mut System<Tag>, base: &[f64]) {
@@ -133,22 +137,24 @@ fn restore(system: &mut System<Tag>, base: &[f64]) {
 
 /// An error of a drawn point is one of its depth times the plane's slope, so the residual that
 /// counts is the distance from the plane.
-fn weigh(system: &mut System<Tag>, unknowns: &Unknowns, base: &[f64], solution: &Solution) {
+fn weigh(system: &mut System<Tag>, unknowns: &Unknowns, base: &[f64], x: &[f64]) {
     for (row, &weight) in system.rows_mut().iter_mut().zip(base) {
-        let face = match row.tag {
-            Tag::Incidence { face, .. } | Tag::Alignment { face } => face,
-            _ => continue,
-        };
-        if let Some(p) = unknowns.plane(face) {
-            let (a, b) = (solution.x[p], solution.x[p + 1]);
-            row.weight = weight / (1.0 + a * a + b * b).sqrt();
+        if let Tag::Incidence { face, .. } | Tag::Alignment { face } = row.tag {
+            row.weight = weight / steepness(unknowns, x, face);
         }
     }
 }
 
-fn agreeing(system: &System<Tag>, solution: &Solution) -> Vec<bool> {
-    let rows = system.rows().iter().zip(&solution.residuals);
-    rows.map(|(row, r)| (r * row.weight).abs() <= WRONG)
+/// Reciprocal of |n_z| of a planar face.
+fn steepness(unknowns: &Unknowns, x: &[f64], face: usize) -> f64 {
+    unknowns
+        .plane(face)
+        .map_or(1.0, |p| (1.0 + x[p] * x[p] + x[p + 1] * x[p + 1]).sqrt())
+}
+
+fn agreeing(system: &System<Tag>, x: &[f64]) -> Vec<bool> {
+    let rows = system.rows().iter();
+    rows.map(|row| (row.residual(x) * row.weight).abs() <= WRONG)
         .collect()
 }
 

@@ -4,6 +4,7 @@ use glam::{DMat3, DVec3};
 
 use super::evidence::{CircleGroup, Evidence};
 use super::hypotheses::{Hypothesis, frames};
+use super::model_frame::USUAL;
 use super::refine::{Followers, refine};
 use super::{AGREE, Axis, Directions, columns, towards_viewer};
 use crate::drawing::Drawing;
@@ -22,6 +23,16 @@ const MAX_ERROR: f64 = 0.01;
 
 /// Readings that are worth a second look when the first one leads to conflicts.
 const READINGS: usize = 4;
+
+/// Hypotheses that are refined, the most telling ones.
+const REFINED: usize = 24;
+
+/// What a vertex where edges of all three axes meet adds to a frame's score. Edges of one plane can
+/// pass for the three axes, but do not meet like that.
+const CORNER: f64 = 1.0;
+
+/// What an axis that is drawn vertically adds: people keep a part's upright edges upright.
+const UPRIGHT: f64 = 1.0;
 
 /// A reading of the evidence.
 struct Reading {
@@ -102,20 +113,33 @@ fn refusal(drawing: &Drawing, size: f64) -> LiftError {
 
 /// All readings, most likely first.
 fn readings(evidence: &Evidence) -> Vec<Reading> {
+    let mut starts: Vec<(f64, Hypothesis)> = frames(evidence)
+        .into_iter()
+        .map(|h| (explained(evidence, &Followers::new(evidence, &h)), h))
+        .collect();
+    starts.sort_by(|a, b| b.0.total_cmp(&a.0));
     let mut seen: Vec<DMat3> = Vec::new();
     let mut all: Vec<Reading> = Vec::new();
-    for start in frames(evidence) {
-        let Some((found, followers)) = refine(evidence, start) else {
-            continue;
-        };
+    for (_, start) in starts {
+        if seen.len() >= REFINED {
+            break;
+        }
         if seen
             .iter()
-            .any(|f| is_same(f, &found.frame, 5.0 * found.error))
+            .any(|f| is_same(f, &start.frame, 5.0 * start.error))
         {
             continue;
         }
-        seen.push(found.frame);
-        all.extend(frame_reading(evidence, &found, &followers));
+        let Some((found, followers)) = refine(evidence, start) else {
+            continue;
+        };
+        if !seen
+            .iter()
+            .any(|f| is_same(f, &found.frame, 5.0 * found.error))
+        {
+            seen.push(found.frame);
+            all.extend(frame_reading(evidence, &found, &followers));
+        }
     }
     all.extend(
         evidence
@@ -127,7 +151,19 @@ fn readings(evidence: &Evidence) -> Vec<Reading> {
     all
 }
 
-/// A frame needs a follower of each axis; two of the axes might be held by one of them otherwise.
+/// How much of the evidence follows a frame.
+fn explained(evidence: &Evidence, followers: &Followers) -> f64 {
+    let clusters = evidence.clusters.iter().zip(&followers.clusters);
+    let circles = evidence.circles.iter().zip(&followers.circles);
+    clusters
+        .filter_map(|(c, i)| Some(evidence.salience(c) * USUAL[(*i)?].weight))
+        .sum::<f64>()
+        + circles
+            .filter(|(_, k)| k.is_some())
+            .map(|(g, _)| g.edges.len() as f64)
+            .sum::<f64>()
+}
+
 fn frame_reading(
     evidence: &Evidence,
     found: &Hypothesis,
@@ -138,48 +174,52 @@ fn frame_reading(
         edges: Vec::new(),
         circles: Vec::new(),
     });
-    let (mut score, mut votes) = (0.0, 0.0);
-    for (cluster, k) in evidence.clusters.iter().zip(&followers.clusters) {
-        let Some(axis) = k.map(|k| &mut axes[k]) else {
-            continue;
-        };
-        for segment in cluster
-            .members
-            .iter()
-            .filter_map(|&m| evidence.segments.get(m))
-        {
-            axis.edges.push(segment.edge);
-            score += (segment.length / evidence.size).sqrt();
-            votes += 1.0;
+    let mut constraints = 0;
+    let mut votes = 0;
+    for (cluster, i) in evidence.clusters.iter().zip(&followers.clusters) {
+        constraints += usize::from(i.is_some());
+        if let Some(axis) = i.and_then(|i| axes.get_mut(i)) {
+            axis.edges.extend(evidence.edges_of(cluster));
+            votes += cluster.members.len();
         }
     }
     for (group, k) in evidence.circles.iter().zip(&followers.circles) {
-        let Some(axis) = k.map(|k| &mut axes[k]) else {
-            continue;
-        };
-        axis.circles.extend(&group.edges);
-        score += group.edges.len() as f64;
-        votes += 2.0 * group.edges.len() as f64;
+        if let Some(axis) = k.and_then(|k| axes.get_mut(k)) {
+            axis.circles.extend(&group.edges);
+            constraints += 2;
+            votes += 2 * group.edges.len();
+        }
     }
+    // Three constraints fix a frame. One without an edge or circle on some axis rests on angles
+    // only, and needs more to be believed: two directions at a known angle beside an axis.
     let complete = axes
         .iter()
         .all(|a| !(a.edges.is_empty() && a.circles.is_empty()));
-    complete.then(|| Reading {
+    let slanted = followers.clusters.iter().flatten().any(|&i| i > 2);
+    if constraints < 3 || !(complete || constraints > 3 && slanted) {
+        return None;
+    }
+    let upright = axes.iter().any(|a| {
+        let drawn = a.direction.truncate();
+        drawn.x.abs() < AGREE * found.error && drawn.y.abs() > 0.1
+    });
+    Some(Reading {
+        score: explained(evidence, followers)
+            + CORNER * evidence.corners(&axes) as f64
+            + if upright { UPRIGHT } else { 0.0 },
         directions: Directions {
             axes: axes.into(),
             error: found.error,
             precision: evidence.precision,
         },
-        votes: votes - 3.0,
-        score,
+        votes: votes as f64 - 3.0,
     })
 }
 
 /// The axis of a group of circles, from the circles and the straight edges along it.
 fn axis_reading(evidence: &Evidence, group: &CircleGroup) -> Option<Reading> {
-    let normal = group.normal();
+    let (normal, error) = (group.normal, group.error);
     let slant = normal.truncate().length();
-    let error = group.error / slant.min(normal.z).max(1e-6);
     let drawn = normal.truncate() / slant;
     let along = evidence.clusters.iter().find(|c| {
         c.direction.perp_dot(drawn).abs() < AGREE * (error + c.error(evidence.precision))
@@ -191,15 +231,8 @@ fn axis_reading(evidence: &Evidence, group: &CircleGroup) -> Option<Reading> {
         }
         _ => normal,
     };
-    let edges: Vec<usize> = along.map_or_else(Vec::new, |c| {
-        let members = c.members.iter().filter_map(|&m| evidence.segments.get(m));
-        members.map(|s| s.edge).collect()
-    });
-    let score = group.edges.len() as f64
-        + along.map_or(0.0, |c| {
-            let members = c.members.iter().filter_map(|&m| evidence.segments.get(m));
-            members.map(|s| (s.length / evidence.size).sqrt()).sum()
-        });
+    let edges: Vec<usize> = along.map_or_else(Vec::new, |c| evidence.edges_of(c).collect());
+    let score = group.edges.len() as f64 + along.map_or(0.0, |c| evidence.salience(c));
     let votes = (2 * group.edges.len() + edges.len()) as f64 - 2.0;
     Some(Reading {
         directions: Directions {

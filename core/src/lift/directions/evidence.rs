@@ -1,7 +1,8 @@
 //! What a drawing shows of directions: straight edges in parallel clusters, and circles.
 
-use glam::{DMat2, DVec2, DVec3};
+use glam::{DVec2, DVec3};
 
+use super::Axis;
 use crate::drawing::{Curve2, Drawing, EllipseArc};
 
 /// Standard errors within which a measurement agrees with a prediction.
@@ -35,14 +36,14 @@ pub(crate) struct Cluster {
     pub(crate) lever: f64,
 }
 
-/// Arcs of circles in parallel planes.
+/// Arcs of circles in parallel planes, or in the mirror images of such planes.
 #[derive(Debug, Clone)]
 pub(crate) struct CircleGroup {
     /// Edges that show it.
     pub(crate) edges: Vec<usize>,
-    /// Shape of a unit circle's image, `I - n_xy n_xy^T` for a circle of unit normal n.
-    pub(crate) shape: DMat2,
-    /// Standard error of the entries of `shape`.
+    /// Unit normal with positive z; the other one that fits is its reversal in depth.
+    pub(crate) normal: DVec3,
+    /// Standard error of the normal, radians.
     pub(crate) error: f64,
 }
 
@@ -58,6 +59,8 @@ pub(crate) struct Evidence {
     pub(crate) clusters: Vec<Cluster>,
     /// Circles, the ones with most edges first.
     pub(crate) circles: Vec<CircleGroup>,
+    /// Vertices of every edge.
+    ends: Vec<[usize; 2]>,
 }
 
 impl Evidence {
@@ -70,7 +73,39 @@ impl Evidence {
             clusters,
             segments,
             circles: circles(drawing, precision),
+            ends: drawing.edges.iter().map(|e| e.v).collect(),
         }
+    }
+}
+
+impl Evidence {
+    /// Edges (from 0) of a cluster.
+    pub(crate) fn edges_of(&self, cluster: &Cluster) -> impl Iterator<Item = usize> {
+        let members = cluster.members.iter();
+        members.filter_map(|&m| self.segments.get(m).map(|s| s.edge))
+    }
+
+    /// How much a cluster says: many edges more than few, long ones more than short ones, but less
+    /// than by their length.
+    pub(crate) fn salience(&self, cluster: &Cluster) -> f64 {
+        let members = cluster.members.iter().filter_map(|&m| self.segments.get(m));
+        members.map(|s| (s.length / self.size).sqrt()).sum()
+    }
+
+    /// Number of vertices where edges along all of the axes meet.
+    pub(super) fn corners(&self, axes: &[Axis; 3]) -> usize {
+        let mut met = vec![0u8; self.ends.iter().flatten().max().map_or(0, |v| v + 1)];
+        for (k, axis) in axes.iter().enumerate() {
+            for v in axis
+                .edges
+                .iter()
+                .filter_map(|&e| self.ends.get(e))
+                .flatten()
+            {
+                met[*v] |= 1 << k;
+            }
+        }
+        met.iter().filter(|m| **m == 0b111).count()
     }
 }
 
@@ -82,38 +117,39 @@ impl Cluster {
 }
 
 impl CircleGroup {
-    /// The normal with positive z; the other one that fits is its reversal in depth.
-    pub(crate) fn normal(&self) -> DVec3 {
-        // I - shape = n_xy n_xy^T has rank one: its larger column is along n_xy.
-        let m = DMat2::IDENTITY - self.shape;
-        let column = if m.x_axis.x > m.y_axis.y {
-            m.x_axis
-        } else {
-            m.y_axis
-        };
-        let squared = (m.x_axis.x + m.y_axis.y).clamp(0.0, 1.0);
-        let xy = column.normalize_or_zero() * squared.sqrt();
-        xy.extend((1.0 - squared).sqrt())
+    /// A circle's normal is drawn along the minor axis, and |n_z| is minor over major. An error of
+    /// that ratio is one of the normal, times 1 / |n_xy|; one of the axes' direction too.
+    fn new(edge: usize, arc: &EllipseArc, precision: f64) -> Self {
+        let slant = (1.0 - arc.ratio * arc.ratio).sqrt();
+        let xy = arc.major.perp().normalize() * slant;
+        Self {
+            edges: vec![edge],
+            normal: xy.extend(arc.ratio),
+            error: (arc.uncertainty + precision / arc.major.length()) / slant,
+        }
     }
 
-    /// Whether circles of the unit normal `n` look like this, `n` known to `error` radians.
+    /// A direction, its reverse, or the mirror image in depth of either: the one next to the
+    /// group's normal, and by which signs.
+    pub(crate) fn fold(&self, n: DVec3) -> (DVec3, DVec3) {
+        let xy = n.truncate().dot(self.normal.truncate()).signum();
+        let signs = DVec3::new(xy, xy, n.z.signum());
+        (n * signs, signs)
+    }
+
+    /// Whether circles of the unit normal `n`, known to `error` radians, look like this.
     pub(crate) fn agrees(&self, n: DVec3, error: f64) -> bool {
-        shape_distance(self.shape, n) < AGREE * (self.error + error)
+        self.fold(n).0.distance(self.normal) < AGREE * (self.error + error).min(0.05)
     }
-}
 
-/// Largest difference of the entries of a shape from that of a circle with unit normal `n`.
-pub(crate) fn shape_distance(shape: DMat2, n: DVec3) -> f64 {
-    let d = shape - circle_shape(n);
-    let largest = d.x_axis.abs().max(d.y_axis.abs());
-    largest.max_element()
-}
-
-/// Image of a unit circle with unit normal `n`: `M M^T` for the 2x2 matrix M that maps the unit
-/// circle to its drawing.
-pub(crate) fn circle_shape(n: DVec3) -> DMat2 {
-    let xy = n.truncate();
-    DMat2::IDENTITY - DMat2::from_cols(xy * xy.x, xy * xy.y)
+    /// Takes in further arcs of the same normal, by the weight of their errors.
+    fn merge(&mut self, other: Self) {
+        let (own, new) = (self.error.powi(-2), other.error.powi(-2));
+        let mean = self.normal * own + self.fold(other.normal).0 * new;
+        self.normal = mean.normalize_or(self.normal);
+        self.error = (own + new).sqrt().recip();
+        self.edges.extend(other.edges);
+    }
 }
 
 fn segments(drawing: &Drawing, precision: f64) -> Vec<Segment> {
@@ -170,12 +206,6 @@ fn cluster(segments: &[Segment], precision: f64) -> Vec<Cluster> {
     clusters
 }
 
-/// Standard error of the entries of an arc's shape matrix: that of its axes, and not below what the
-/// drawing's precision leaves.
-fn shape_error(arc: &EllipseArc, precision: f64) -> f64 {
-    2.0 * arc.uncertainty + 2.0 * precision / arc.major.length()
-}
-
 fn circles(drawing: &Drawing, precision: f64) -> Vec<CircleGroup> {
     let mut arcs: Vec<CircleGroup> = drawing
         .edges
@@ -188,13 +218,7 @@ fn circles(drawing: &Drawing, precision: f64) -> Vec<CircleGroup> {
                     && arc.ratio < FACE_ON
                     && arc.ratio * arc.major.length() > 20.0 * precision =>
             {
-                let (major, minor) = (arc.major, arc.minor());
-                let outer = |v: DVec2| DMat2::from_cols(v * v.x, v * v.y);
-                Some(CircleGroup {
-                    edges: vec![edge],
-                    shape: (outer(major) + outer(minor)) * major.length_squared().recip(),
-                    error: shape_error(&arc, precision),
-                })
+                Some(CircleGroup::new(edge, &arc, precision))
             }
             _ => None,
         })
@@ -202,9 +226,8 @@ fn circles(drawing: &Drawing, precision: f64) -> Vec<CircleGroup> {
     arcs.sort_by(|a, b| a.error.total_cmp(&b.error));
     let mut groups: Vec<CircleGroup> = Vec::new();
     for arc in arcs {
-        let normal = arc.normal();
-        match groups.iter_mut().find(|g| g.agrees(normal, arc.error)) {
-            Some(group) => group.edges.extend(arc.edges),
+        match groups.iter_mut().find(|g| g.agrees(arc.normal, arc.error)) {
+            Some(group) => group.merge(arc),
             None => groups.push(arc),
         }
     }

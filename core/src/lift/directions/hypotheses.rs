@@ -1,5 +1,5 @@
 //! Frames that a few pieces of evidence would fix: three clusters, a circle and a cluster, two
-//! circles.
+//! circles, a prism's edges and two of its base at a usual angle.
 
 use glam::{DMat3, DVec2, DVec3};
 
@@ -8,6 +8,13 @@ use super::evidence::Evidence;
 /// Clusters and circle groups that hypotheses are made from; the rest only vote.
 const CLUSTERS: usize = 12;
 const CIRCLES: usize = 8;
+
+/// Clusters that prisms are made from.
+const PRISM_CLUSTERS: usize = 6;
+
+/// Squared cosines of the angles, other than right ones, that two edges of a base often make: 60,
+/// 45 and 30 degrees.
+const BASE_ANGLES: [f64; 3] = [0.25, 0.5, 0.75];
 
 /// A frame (columns are unit axes) and about how well it is known, in radians.
 #[derive(Debug, Clone, Copy)]
@@ -35,18 +42,37 @@ pub(super) fn frames(evidence: &Evidence) -> Vec<Hypothesis> {
             }
         }
     }
+    let prisms = &clusters[..clusters.len().min(PRISM_CLUSTERS)];
+    for (i, along) in prisms.iter().enumerate() {
+        for (j, a) in prisms.iter().enumerate() {
+            for (k, b) in prisms.iter().enumerate().skip(j + 1) {
+                if i == j || i == k {
+                    continue;
+                }
+                for squared in BASE_ANGLES {
+                    let found = from_prism(along.direction, a.direction, b.direction, squared);
+                    let error = errors[i] + errors[j] + errors[k];
+                    all.extend(
+                        found
+                            .into_iter()
+                            .flatten()
+                            .filter_map(|f| hypothesis(f, error)),
+                    );
+                }
+            }
+        }
+    }
     for (i, group) in circles.iter().enumerate() {
-        let axis = group.normal();
-        let slant = axis.truncate().length();
+        let axis = group.normal;
         for (cluster, error) in clusters.iter().zip(&errors) {
             let frame = from_axis(axis, cluster.direction);
-            all.extend(frame.and_then(|f| hypothesis(f, group.error / slant + error)));
+            all.extend(frame.and_then(|f| hypothesis(f, group.error + error)));
         }
         for other in &circles[i + 1..] {
-            let n = other.normal();
+            let n = other.normal;
             // Of the two relative signs, the one in which the planes are at right angles.
             let reversed = (n.truncate()).extend(-n.z);
-            let error = group.error / slant + other.error / n.truncate().length();
+            let error = group.error + other.error;
             for second in [n, reversed] {
                 if axis.dot(second).abs() < 10.0 * error {
                     all.extend(orthonormal(axis, second).and_then(|f| hypothesis(f, error)));
@@ -67,6 +93,25 @@ fn from_drawn(a: DVec2, b: DVec2, c: DVec2) -> Option<DMat3> {
     let za = (-ab * ac / bc).sqrt();
     let axis = |d: DVec2, z: f64| d.extend(z).normalize();
     orthonormal(axis(a, za), axis(b, -ab / za))
+}
+
+/// Frames whose first axis is drawn along `d`, with two directions at right angles to it drawn along
+/// `a` and `b` that make an angle of squared cosine `squared`; the second axis is along `a`.
+///
+/// With z the axis' rise for unit drawn length, those of a and b are -(d.a)/z and -(d.b)/z, and the
+/// angle is a quadratic equation in z^2.
+fn from_prism(d: DVec2, a: DVec2, b: DVec2, squared: f64) -> [Option<DMat3>; 2] {
+    let (da, db, ab) = (d.dot(a), d.dot(b), a.dot(b));
+    let quadratic = ab * ab - squared;
+    let linear = 2.0 * da * db * ab - squared * (da * da + db * db);
+    let constant = (1.0 - squared) * (da * db).powi(2);
+    let root = (linear * linear - 4.0 * quadratic * constant).sqrt();
+    // Stable roots: no difference of nearly equal numbers.
+    let q = -0.5 * (linear + root.copysign(linear));
+    [q / quadratic, constant / q].map(|t| {
+        let rise = Some(t).filter(|t| *t > 0.0 && t.is_finite())?.sqrt();
+        orthonormal(d.extend(rise), a.extend(-da / rise))
+    })
 }
 
 /// Frame with a known axis and a second one at right angles to it that is drawn along `d`.
@@ -93,7 +138,7 @@ fn hypothesis(frame: DMat3, error: f64) -> Option<Hypothesis> {
 
 #[cfg(test)]
 mod tests {
-    use glam::EulerRot;
+    use glam::{DQuat, EulerRot};
 
     use super::*;
 
@@ -113,6 +158,21 @@ mod tests {
             };
             assert!(close(&|v| v) || close(&mirror));
         }
+    }
+
+    #[test]
+    fn a_hexagon_gives_the_frame_of_its_prism() {
+        let turn = DMat3::from_euler(EulerRot::ZYX, 0.3, 0.7, -0.5);
+        let drawn = |v: DVec3| (turn * v).truncate().normalize();
+        let side = |degrees: f64| drawn(DQuat::from_rotation_z(degrees.to_radians()) * DVec3::X);
+        let found = from_prism(drawn(DVec3::Z), side(0.0), side(60.0), 0.25);
+        let axis = turn * DVec3::Z;
+        let mirrored = axis * DVec3::new(1.0, 1.0, -1.0);
+        assert!(found.iter().flatten().any(|f| {
+            [axis, mirrored]
+                .iter()
+                .any(|a| f.x_axis.cross(*a).length() < 1e-9)
+        }));
     }
 
     #[test]

@@ -14,6 +14,7 @@
 mod choose;
 mod evidence;
 mod hypotheses;
+mod model_frame;
 mod refine;
 #[cfg(test)]
 mod tests;
@@ -23,7 +24,7 @@ use glam::{DMat3, DVec3};
 use super::LiftError;
 use crate::drawing::{Drawing, Projection};
 
-pub(crate) use evidence::AGREE;
+pub(crate) use evidence::{AGREE, Evidence};
 
 /// One direction and what supports it.
 #[derive(Debug, Clone, PartialEq)]

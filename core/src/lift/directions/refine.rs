@@ -1,81 +1,132 @@
 //! Fit of one rotation to all evidence that agrees with it.
 
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DQuat, DVec2, DVec3};
 
-use super::evidence::{AGREE, Evidence, circle_shape, shape_distance};
+use super::evidence::{AGREE, Evidence};
 use super::hypotheses::Hypothesis;
+use super::model_frame::USUAL;
 
-/// Which axis (0, 1, 2) each cluster and circle group follows.
+/// Errors, radians, up to which slanted directions are told apart by chance seldom enough.
+const SHARP: f64 = 1e-3;
+
+/// Steps of Gauss-Newton; each one also chooses the followers anew.
+const STEPS: usize = 6;
+
+/// Standard error, radians, of a frame that is no use.
+const LOST: f64 = 0.2;
+
+/// What follows a frame: indices of usual directions for clusters, of axes for circles.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Followers {
     pub(super) clusters: Vec<Option<usize>>,
     pub(super) circles: Vec<Option<usize>>,
 }
 
-/// The evidence that agrees with a frame within its error. A cluster that two axes would explain
-/// follows neither.
-pub(super) fn followers(evidence: &Evidence, h: &Hypothesis) -> Followers {
-    let axes = [h.frame.x_axis, h.frame.y_axis, h.frame.z_axis];
-    let only = |agrees: &dyn Fn(DVec3) -> bool| {
-        let mut found = (0..3).filter(|&k| agrees(axes[k]));
-        let first = found.next();
-        if found.next().is_some() { None } else { first }
-    };
-    let clusters = evidence.clusters.iter().map(|c| {
-        only(&|axis| {
-            let drawn = axis.truncate();
-            let length = drawn.length();
-            let error = c.error(evidence.precision) + h.error / length.max(1e-9);
-            length > 1e-6 && (c.direction.perp_dot(drawn) / length).abs() < AGREE * error.min(0.05)
-        })
-    });
-    let circles = evidence.circles.iter().map(|g| {
-        only(&|axis| shape_distance(g.shape, axis) < AGREE * (g.error + h.error).min(0.05))
-    });
-    Followers {
-        clusters: clusters.collect(),
-        circles: circles.collect(),
+impl Followers {
+    /// The evidence that agrees with a frame within its error. What two axes would explain follows
+    /// neither; slanted directions are asked only where no axis explains a cluster.
+    pub(super) fn new(evidence: &Evidence, h: &Hypothesis) -> Self {
+        let clusters = evidence.clusters.iter().map(|c| {
+            let error = c.error(evidence.precision);
+            let along =
+                |i: &usize| is_along(c.direction, h.frame * USUAL[*i].direction, error, h.error);
+            match only((0..3).filter(along)) {
+                Found::None if error + h.error < SHARP => {
+                    only((3..USUAL.len()).filter(along)).one()
+                }
+                found => found.one(),
+            }
+        });
+        Self {
+            clusters: clusters.collect(),
+            circles: evidence
+                .circles
+                .iter()
+                .map(|group| only((0..3).filter(|&k| group.agrees(h.frame.col(k), h.error))).one())
+                .collect(),
+        }
+    }
+
+    fn without_slanted(mut self) -> Self {
+        for c in &mut self.clusters {
+            *c = c.filter(|&i| i < 3);
+        }
+        self
     }
 }
 
+enum Found {
+    None,
+    One(usize),
+    Several,
+}
+
+impl Found {
+    fn one(self) -> Option<usize> {
+        match self {
+            Self::One(i) => Some(i),
+            Self::None | Self::Several => None,
+        }
+    }
+}
+
+fn only(mut all: impl Iterator<Item = usize>) -> Found {
+    match (all.next(), all.next()) {
+        (None, _) => Found::None,
+        (Some(i), None) => Found::One(i),
+        _ => Found::Several,
+    }
+}
+
+/// Whether `drawn` is the direction of `axis`' drawing.
+fn is_along(drawn: DVec2, axis: DVec3, drawn_error: f64, axis_error: f64) -> bool {
+    let along = axis.truncate();
+    let length = along.length();
+    let error = drawn_error + axis_error / length.max(1e-9);
+    length > 1e-6 && (drawn.perp_dot(along) / length).abs() < AGREE * error.min(0.05)
+}
+
 /// Gauss-Newton on SO(3): the rotation that its followers agree with best, with its standard error.
-/// `None` if the followers do not fix a rotation.
+/// Slanted directions take part only if the axes do not fix the rotation without them. `None` if
+/// nothing does.
 pub(super) fn refine(evidence: &Evidence, start: Hypothesis) -> Option<(Hypothesis, Followers)> {
     let mut current = start;
-    for _ in 0..6 {
-        let following = followers(evidence, &current);
-        let (information, gradient) = normal_equations(evidence, &current.frame, &following);
-        let covariance = invert(information)?;
+    for _ in 0..STEPS {
+        let all = Followers::new(evidence, &current);
+        let axes = all.clone().without_slanted();
+        let (covariance, gradient) = normal_equations(evidence, &current.frame, &axes)
+            .or_else(|| normal_equations(evidence, &current.frame, &all))?;
         let step = -(covariance * gradient);
-        let turned = DMat3::from_quat(glam::DQuat::from_scaled_axis(step)) * current.frame;
+        let frame = DMat3::from_quat(DQuat::from_scaled_axis(step)) * current.frame;
         let error = largest_eigenvalue(covariance).sqrt();
-        if !turned.is_finite() || error > 0.2 {
+        if !frame.is_finite() || error > LOST {
             return None;
         }
         let settled = step.length() < 1e-3 * error && error >= 0.999 * current.error;
-        current = Hypothesis {
-            frame: turned,
-            error,
-        };
+        current = Hypothesis { frame, error };
         if settled {
             break;
         }
     }
-    let following = followers(evidence, &current);
-    Some((current, following))
+    let followers = Followers::new(evidence, &current);
+    Some((current, followers))
 }
 
-/// Information matrix and gradient of half the sum of squares, by a small rotation vector.
-fn normal_equations(evidence: &Evidence, frame: &DMat3, following: &Followers) -> (DMat3, DVec3) {
-    let axes = [frame.x_axis, frame.y_axis, frame.z_axis];
+/// Covariance, and gradient of half the sum of squares, by a small rotation vector; `None` if the
+/// followers leave a rotation open.
+fn normal_equations(
+    evidence: &Evidence,
+    frame: &DMat3,
+    followers: &Followers,
+) -> Option<(DMat3, DVec3)> {
     let (mut information, mut gradient) = (DMat3::ZERO, DVec3::ZERO);
     let mut add = |residual: f64, slope: DVec3, error: f64| {
         let s = slope / error;
         information += DMat3::from_cols(s * s.x, s * s.y, s * s.z);
         gradient += s * (residual / error);
     };
-    for (c, k) in evidence.clusters.iter().zip(&following.clusters) {
-        let Some(axis) = k.map(|k| axes[k]) else {
+    for (c, i) in evidence.clusters.iter().zip(&followers.clusters) {
+        let Some(axis) = i.map(|i| *frame * USUAL[i].direction) else {
             continue;
         };
         let drawn = axis.truncate();
@@ -88,24 +139,20 @@ fn normal_equations(evidence: &Evidence, frame: &DMat3, following: &Followers) -
             across.y * axis.x - across.x * axis.y,
         );
         let residual = c.direction.perp_dot(unit);
-        add(
-            residual,
-            slope * (c.direction.dot(unit) / length),
-            c.error(evidence.precision),
-        );
+        let slope = slope * (c.direction.dot(unit) / length);
+        add(residual, slope, c.error(evidence.precision));
     }
-    for (g, k) in evidence.circles.iter().zip(&following.circles) {
-        let Some(n) = k.map(|k| axes[k]) else {
+    for (g, k) in evidence.circles.iter().zip(&followers.circles) {
+        let Some(n) = k.map(|k| frame.col(k)) else {
             continue;
         };
-        let d = g.shape - circle_shape(n);
-        let by_x = DVec3::new(0.0, n.z, -n.y);
-        let by_y = DVec3::new(-n.z, 0.0, n.x);
-        add(d.x_axis.x, 2.0 * n.x * by_x, g.error);
-        add(d.y_axis.y, 2.0 * n.y * by_y, g.error);
-        add(d.x_axis.y, n.x * by_y + n.y * by_x, g.error);
+        let (folded, signs) = g.fold(n);
+        let off = folded - g.normal;
+        add(off.x, signs.x * DVec3::new(0.0, n.z, -n.y), g.error);
+        add(off.y, signs.y * DVec3::new(-n.z, 0.0, n.x), g.error);
+        add(off.z, signs.z * DVec3::new(n.y, -n.x, 0.0), g.error);
     }
-    (information, gradient)
+    Some((invert(information)?, gradient))
 }
 
 fn invert(m: DMat3) -> Option<DMat3> {

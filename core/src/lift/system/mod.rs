@@ -138,31 +138,40 @@ impl<T> System<T> {
         self.rows.retain(keep);
     }
 
-    /// Least squares over all rows.
+    /// Least squares over all rows, with their null space.
     ///
     /// # Errors
     /// [`LiftError::Solver`] if a row is malformed or the factorisation breaks down.
     pub fn least_squares(&self) -> Result<Solution, LiftError> {
-        self.least_squares_of(&vec![true; self.rows.len()])
+        let all = vec![true; self.rows.len()];
+        let x = self.minimise(&all)?;
+        Ok(self.solution(x, normal::null_space(self, &all)?))
     }
 
-    /// Least squares over the rows that `active` marks; `active` has one entry a row. Residuals are
-    /// those of all rows.
+    /// Least-squares solution over the rows that `active` marks, one entry a row.
     ///
     /// # Errors
     /// As [`least_squares`](Self::least_squares).
-    pub fn least_squares_of(&self, active: &[bool]) -> Result<Solution, LiftError> {
+    pub fn minimise(&self, active: &[bool]) -> Result<Vec<f64>, LiftError> {
         self.check()?;
         normal::solve(self, active)
     }
 
-    /// The null space of the rows alone.
+    /// The null space of all rows alone; weights play no part in it.
     ///
     /// # Errors
     /// As [`least_squares`](Self::least_squares).
     pub fn null_space(&self) -> Result<NullSpace, LiftError> {
+        self.null_space_of(&vec![true; self.rows.len()])
+    }
+
+    /// The null space of the rows that `active` marks.
+    ///
+    /// # Errors
+    /// As [`least_squares`](Self::least_squares).
+    pub fn null_space_of(&self, active: &[bool]) -> Result<NullSpace, LiftError> {
         self.check()?;
-        normal::null_space(self)
+        normal::null_space(self, active)
     }
 
     /// Least sum of weighted absolute residuals (paper, section 5.1), by Clarabel. Rows that are
@@ -171,17 +180,20 @@ impl<T> System<T> {
     /// # Errors
     /// [`LiftError::Solver`] if a row is malformed or the solver gives up.
     pub fn least_absolute(&self) -> Result<Solution, LiftError> {
-        self.check()?;
-        let null_space = normal::null_space(self)?;
+        let null_space = self.null_space()?;
         let x = l1::solve(self)?;
         Ok(self.solution(x, null_space))
     }
 
+    /// Residual of every row at `x`, not weighted.
+    pub fn residuals(&self, x: &[f64]) -> Vec<f64> {
+        self.rows.iter().map(|r| r.residual(x)).collect()
+    }
+
     fn solution(&self, x: Vec<f64>, null_space: NullSpace) -> Solution {
-        let residuals = self.rows.iter().map(|r| r.residual(&x)).collect();
         Solution {
+            residuals: self.residuals(&x),
             x,
-            residuals,
             null_space,
         }
     }

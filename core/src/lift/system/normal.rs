@@ -5,7 +5,7 @@ use faer::sparse::linalg::solvers::Llt;
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{Mat, Side};
 
-use super::{LiftError, NullSpace, Row, Solution, System};
+use super::{LiftError, NullSpace, Row, System};
 
 /// Added to the diagonal of the scaled normal matrix, whose diagonal is 1. A direction in which the
 /// rows say less than this (a singular value below 3e-6 of the largest) counts as left open: data
@@ -25,8 +25,9 @@ const BLOCK: usize = 6;
 /// Length below which a vector of the iterated block is no null vector.
 const NULL_LENGTH: f64 = 1e-3;
 
-pub(super) fn solve<T>(system: &System<T>, active: &[bool]) -> Result<Solution, LiftError> {
-    let factor = Factor::new(system, active)?;
+/// Least-squares solution over the rows that `active` marks.
+pub(super) fn solve<T>(system: &System<T>, active: &[bool]) -> Result<Vec<f64>, LiftError> {
+    let factor = Factor::new(system, active, |row| row.weight)?;
     let n = system.unknowns();
     let mut x = vec![0.0; n];
     for _ in 0..=REFINEMENTS {
@@ -46,12 +47,21 @@ pub(super) fn solve<T>(system: &System<T>, active: &[bool]) -> Result<Solution, 
     if !x.iter().all(|v| v.is_finite()) {
         return Err(LiftError::Solver("the solution is not finite".into()));
     }
-    let null_space = factor.null_space();
-    Ok(system.solution(x, null_space))
+    Ok(x)
 }
 
-pub(super) fn null_space<T>(system: &System<T>) -> Result<NullSpace, LiftError> {
-    Ok(Factor::new(system, &vec![true; system.rows().len()])?.null_space())
+/// Null space of the rows that `active` marks. Rows count alike here, whatever their weight: a weak
+/// row determines as much as a strong one.
+pub(super) fn null_space<T>(system: &System<T>, active: &[bool]) -> Result<NullSpace, LiftError> {
+    let unit = |row: &Row<T>| {
+        let square: f64 = row.terms.iter().map(|t| t.1 * t.1).sum();
+        if square > 0.0 {
+            square.sqrt().recip()
+        } else {
+            0.0
+        }
+    };
+    Ok(Factor::new(system, active, unit)?.null_space())
 }
 
 fn used<'a, T>(system: &'a System<T>, active: &'a [bool]) -> impl Iterator<Item = &'a Row<T>> {
@@ -68,12 +78,16 @@ struct Factor {
 }
 
 impl Factor {
-    fn new<T>(system: &System<T>, active: &[bool]) -> Result<Self, LiftError> {
+    fn new<T>(
+        system: &System<T>,
+        active: &[bool],
+        weight: impl Fn(&Row<T>) -> f64,
+    ) -> Result<Self, LiftError> {
         let n = system.unknowns();
         let mut diagonal = vec![0.0; n];
         for row in used(system, active) {
             for &(i, c) in &row.terms {
-                diagonal[i] += (row.weight * c).powi(2);
+                diagonal[i] += (weight(row) * c).powi(2);
             }
         }
         let scale: Vec<f64> = diagonal
@@ -82,7 +96,7 @@ impl Factor {
             .collect();
         let mut triplets: Vec<_> = (0..n).map(|i| Triplet::new(i, i, EPS)).collect();
         for row in used(system, active) {
-            let w = row.weight * row.weight;
+            let w = weight(row).powi(2);
             for (k, &(i, a)) in row.terms.iter().enumerate() {
                 let scaled = w * a * scale[i];
                 let lower = row.terms[..=k].iter();

@@ -1,0 +1,213 @@
+//! Rows that rest on general position: what is parallel, centred or square in the drawing is so in
+//! space. They are taken in turn, only as long as depths are open, and only where they are.
+
+use glam::DVec2;
+
+use super::directions::AGREE;
+use super::rows::{Tag, Unknowns, coaxial};
+use super::sheet::Sheet;
+use super::system::System;
+use crate::drawing::{Curve2, SurfaceKind};
+
+/// A set of rows that may be added.
+pub(super) type Level = fn(&Sheet<'_>, &Unknowns, &mut System<Tag>);
+
+/// The sets, surest first.
+pub(super) const LEVELS: [Level; 5] = [parallel, prisms, generators, frustums, loose_coaxial];
+
+/// Edges that are drawn parallel are parallel: their rises are as their drawn lengths.
+fn parallel(sheet: &Sheet<'_>, _: &Unknowns, system: &mut System<Tag>) {
+    let ends = |edge: usize| {
+        let [u, v] = sheet.drawing.edges[edge].v;
+        (u, v, sheet.drawing.vertices[v] - sheet.drawing.vertices[u])
+    };
+    let precision = sheet.directions.precision;
+    for cluster in &sheet.parallels {
+        let Some((&first, others)) = cluster.split_first() else {
+            continue;
+        };
+        let (u, v, whole) = ends(first);
+        for &edge in others {
+            let (s, t, part) = ends(edge);
+            let share = part.dot(whole) / whole.length_squared();
+            let terms = [(t, 1.0), (s, -1.0), (v, -share), (u, share)];
+            // A rise of about the length, off by the end points' error.
+            let error = 4.0 * precision * (1.0 + share.abs());
+            system.push(terms, 0.0, error.recip(), Tag::Parallel { edge });
+        }
+    }
+}
+
+/// A planar face whose vertices all send edges along one axis is the end of a right prism: it is
+/// normal to the axis.
+fn prisms(sheet: &Sheet<'_>, unknowns: &Unknowns, system: &mut System<Tag>) {
+    for face in 0..sheet.faces.len() {
+        let Some(p) = unknowns.plane(face) else {
+            continue;
+        };
+        let mut leaving = sheet.leaving(face).map(|(_, edge)| sheet.edge_axis[edge]);
+        let Some(Some(k)) = leaving.next() else {
+            continue;
+        };
+        if leaving.all(|other| other == Some(k)) {
+            let n = sheet.axis(k);
+            let weight = (sheet.directions.error / (n.z * n.z)).recip();
+            system.push([(p, 1.0)], n.x / n.z, weight, Tag::Prism { face });
+            system.push([(p + 1, 1.0)], n.y / n.z, weight, Tag::Prism { face });
+        }
+    }
+}
+
+/// The end of a frustum, whose edges follow two axes, is centred over the vertices that its oblique
+/// edges lead to if it is drawn so: the mean of these edges follows the third axis.
+fn frustums(sheet: &Sheet<'_>, _: &Unknowns, system: &mut System<Tag>) {
+    for face in 0..sheet.faces.len() {
+        let Some(normal) = sheet.normal_axis(face) else {
+            continue;
+        };
+        let leaving: Vec<(usize, usize)> = sheet.leaving(face).collect();
+        let mut from: Vec<usize> = leaving.iter().map(|l| l.0).collect();
+        from.dedup();
+        if leaving.len() < 3
+            || from.len() != leaving.len()
+            || from.len() != sheet.corners[face].len()
+        {
+            continue;
+        }
+        let far = |&(v, e): &(usize, usize)| {
+            let [a, b] = sheet.drawing.edges[e].v;
+            if a == v { b } else { a }
+        };
+        let share = (leaving.len() as f64).recip();
+        let at = |v: usize| sheet.drawing.vertices[v];
+        let mean: DVec2 = leaving.iter().map(|l| at(far(l)) - at(l.0)).sum::<DVec2>() * share;
+        let axis = sheet.axis(normal);
+        let drawn = axis.truncate();
+        let off = mean.perp_dot(drawn.normalize_or_zero()).abs();
+        let error = 2.0 * sheet.directions.precision
+            + sheet.directions.error * mean.length() / drawn.length();
+        if off < AGREE * error {
+            let rise = mean.dot(drawn) / drawn.length_squared() * axis.z;
+            let terms = leaving
+                .iter()
+                .flat_map(|l| [(far(l), share), (l.0, -share)]);
+            let weight = drawn.length() / (4.0 * error);
+            system.push(terms, rise, weight, Tag::Frustum { face });
+        }
+    }
+}
+
+/// A line of a cylinder along its axis meets its boundary at two points whose depths differ by the
+/// line's rise, wherever these are on planes or circles.
+fn generators(sheet: &Sheet<'_>, unknowns: &Unknowns, system: &mut System<Tag>) {
+    for (face, f) in sheet.faces.iter().enumerate() {
+        if f.kind != SurfaceKind::Cylinder {
+            continue;
+        }
+        let edges = sheet.edges_of(face);
+        let Some(axis) = edges
+            .iter()
+            .find_map(|&e| sheet.edge_axis[e])
+            .map(|k| sheet.axis(k))
+        else {
+            continue;
+        };
+        let drawn = axis.truncate();
+        let slope = axis.z / drawn.length_squared();
+        let error = 10.0 * sheet.directions.precision / drawn.length() / axis.z
+            + sheet.directions.error * sheet.size / drawn.length_squared();
+        for &from in edges.iter().filter(|&&e| !sheet.is_straight(e)) {
+            for &to in edges.iter().filter(|&&e| e != from) {
+                for p in sheet.samples(from) {
+                    let Some(start) = depth_at(sheet, unknowns, from, p) else {
+                        continue;
+                    };
+                    let Some(q) = only_hit(sheet, to, p, drawn) else {
+                        continue;
+                    };
+                    let Some(end) = depth_at(sheet, unknowns, to, q) else {
+                        continue;
+                    };
+                    let terms = end.terms.iter().copied();
+                    let terms = terms.chain(start.terms.iter().map(|&(i, c)| (i, -c)));
+                    let rise = (q - p).dot(drawn) * slope + start.shift - end.shift;
+                    system.push(terms, rise, error.recip(), Tag::Generator { face });
+                }
+            }
+        }
+    }
+}
+
+/// Depth as terms and a shift: `sum(terms) + shift`.
+struct Depth {
+    terms: Vec<(usize, f64)>,
+    shift: f64,
+}
+
+/// Depth of a point of an edge: a vertex', or by the circle's or the neighbouring face's plane.
+fn depth_at(sheet: &Sheet<'_>, unknowns: &Unknowns, edge: usize, p: DVec2) -> Option<Depth> {
+    let e = &sheet.drawing.edges[edge];
+    let near =
+        |v: &&usize| sheet.drawing.vertices[**v].distance(p) < AGREE * sheet.directions.precision;
+    if let Some(&v) = e.v.iter().find(near) {
+        return Some(Depth {
+            terms: vec![(v, 1.0)],
+            shift: 0.0,
+        });
+    }
+    if let Some((k, _)) = sheet.circles[edge] {
+        let n = sheet.axis(k);
+        let d = p - sheet.drawing.vertices[e.v[0]];
+        return Some(Depth {
+            terms: vec![(e.v[0], 1.0)],
+            shift: -d.dot(n.truncate()) / n.z,
+        });
+    }
+    let (face, plane) = sheet
+        .neighbours(edge)
+        .iter()
+        .find_map(|&f| Some((f, unknowns.plane(f)?)))?;
+    let d = p - sheet.middles[face];
+    Some(Depth {
+        terms: vec![(plane, -d.x), (plane + 1, -d.y), (plane + 2, -1.0)],
+        shift: 0.0,
+    })
+}
+
+/// The point of an elliptic arc on the line through `p` along `d`, if there is exactly one that is
+/// not at the line's grazing point.
+fn only_hit(sheet: &Sheet<'_>, edge: usize, p: DVec2, d: DVec2) -> Option<DVec2> {
+    let Curve2::Ellipse(arc) = sheet.drawing.edges[edge].curve else {
+        return None;
+    };
+    // In the ellipse's own coordinates it is the unit circle.
+    let own = |v: DVec2| {
+        let minor = arc.minor();
+        DVec2::new(
+            v.dot(arc.major) / arc.major.length_squared(),
+            v.dot(minor) / minor.length_squared(),
+        )
+    };
+    let along = own(d).try_normalize()?;
+    let start = own(p - arc.center);
+    let off = along.perp_dot(start);
+    let half = (1.0 - off * off).sqrt();
+    // Nearly grazing, the point is poorly known.
+    if half.is_nan() || half < 0.05 {
+        return None;
+    }
+    let foot = along.perp() * off;
+    let mut hits = [half, -half].into_iter().filter_map(|s| {
+        let u = foot + along * s;
+        let turn = (u.to_angle() - arc.start) * arc.sweep.signum();
+        let inside = turn.rem_euclid(std::f64::consts::TAU) <= arc.sweep.abs();
+        inside.then(|| arc.center + arc.major * u.x + arc.minor() * u.y)
+    });
+    let first = hits.next()?;
+    hits.next().is_none().then_some(first)
+}
+
+/// Surfaces that were not told apart may be of revolution too.
+fn loose_coaxial(sheet: &Sheet<'_>, _: &Unknowns, system: &mut System<Tag>) {
+    coaxial(sheet, system, |kind| kind == SurfaceKind::Other);
+}
