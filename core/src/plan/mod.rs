@@ -15,6 +15,7 @@ mod conic;
 mod curves;
 mod error;
 mod finish;
+mod lengths;
 mod model;
 mod options;
 mod orient;
@@ -23,8 +24,10 @@ mod silhouette;
 mod snap;
 mod stage;
 mod support;
+mod touch;
 mod upright;
 mod uses;
+mod vertices;
 mod view;
 
 pub use error::PlanError;

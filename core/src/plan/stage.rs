@@ -7,14 +7,16 @@ use crate::drawing::{CoEdge, Drawing};
 use crate::identify::Face;
 use crate::lift::Lift;
 
-use super::curves::{self, Lengths, Place};
+use super::curves::{self, Place};
+use super::lengths::Lengths;
 use super::orient::orient;
 use super::snap::{Measured, Snapped, snap};
-use super::support::{Support, meet};
+use super::support::Support;
 use super::uses::{Use, uses};
+use super::vertices::Incidence;
 use super::view::View;
 use super::{Orientation, Plan, PlanEdge, PlanError, PlanFace, PlanOptions};
-use super::{finish, sample, silhouette, upright};
+use super::{finish, sample, silhouette, touch, upright};
 
 /// Surfaces are snapped within this share of the drawing's size, and within ten times the lift's
 /// residual, but never more than [`SNAP_MOST`].
@@ -24,6 +26,9 @@ const SNAP_MOST: f64 = 2e-3;
 /// Vertices and edges may be this far off their surfaces, as a share of the drawing's size; a CAD
 /// kernel gets no larger tolerance.
 const LIMIT: f64 = 1e-4;
+
+/// A dominant direction and a model axis are the same within this angle, radians.
+const SAME_AXIS: f64 = 0.01;
 
 /// Steps along a curve when loops are measured.
 const STEPS: usize = 24;
@@ -39,17 +44,31 @@ pub fn plan(drawing: &Drawing, faces: &[Face], lift: &Lift, options: &PlanOption
     check(drawing, faces, lift, options)?;
     let uses = uses(drawing, faces)?;
     let mut notices = Vec::new();
+    let (upright, found) = upright::rotation(&lift.directions);
     let rotation = match options.orientation {
         Orientation::Drawn => DMat3::IDENTITY,
         Orientation::Upright => {
-            let (rotation, found) = upright::rotation(&lift.directions);
             if !found {
                 let what = "no dominant direction is known; the model lies as it is drawn";
                 notices.push(what.to_owned());
             }
-            rotation
+            upright
         }
     };
+    // The model's axes, exactly orthogonal and, if it stands upright, exactly X, Y and Z.
+    let axes: Vec<DVec3> = DVec3::AXES
+        .into_iter()
+        .filter(|a| {
+            let axis = upright.transpose() * *a;
+            lift.directions
+                .iter()
+                .any(|d| d.cross(axis).length() < SAME_AXIS * d.length())
+        })
+        .map(|a| match options.orientation {
+            Orientation::Drawn => upright.transpose() * a,
+            Orientation::Upright => a,
+        })
+        .collect();
     let view = View::new(drawing, rotation)?;
     let size = drawing.size();
     let snap_length = (10.0 * lift.residual).clamp(SNAP_LEAST * size, SNAP_MOST * size);
@@ -60,8 +79,19 @@ pub fn plan(drawing: &Drawing, faces: &[Face], lift: &Lift, options: &PlanOption
         .map(|(p, z)| view.place(*p, *z))
         .collect();
 
-    let snapped = snap_faces(drawing, faces, lift, &uses, &view, &lifted, snap_length)?;
-    notices.extend(snapped.notices.iter().cloned());
+    let mut snapped = snap_faces(
+        drawing,
+        faces,
+        lift,
+        &uses,
+        &view,
+        &lifted,
+        &axes,
+        snap_length,
+    )?;
+    notices.append(&mut snapped.notices);
+    let incidence = Incidence::new(drawing, &uses, &snapped.of_face);
+    touch::make_exact(&mut snapped.supports, &incidence.contacts(), snap_length);
     let supports: Vec<Support> = snapped
         .of_face
         .iter()
@@ -78,13 +108,12 @@ pub fn plan(drawing: &Drawing, faces: &[Face], lift: &Lift, options: &PlanOption
                 .flatten()
         })
         .collect();
-    let vertices = meet_vertices(drawing, &uses, &snapped, &outlines, &lifted, LIMIT * size)?;
-
     let lengths = Lengths {
         size,
         snap: snap_length,
         limit: LIMIT * size,
     };
+    let vertices = incidence.meet(&snapped.supports, &outlines, &lifted, lengths)?;
     let mut edges = Vec::with_capacity(drawing.edges.len());
     for (e, (edge, [a, b])) in drawing.edges.iter().zip(&uses).enumerate() {
         let place = Place {
@@ -170,6 +199,7 @@ fn snap_faces(
     uses: &[[Use; 2]],
     view: &View,
     lifted: &[DVec3],
+    axes: &[DVec3],
     tolerance: f64,
 ) -> Result<Snapped, PlanError> {
     let mut measured = Vec::with_capacity(faces.len());
@@ -193,67 +223,5 @@ fn snap_faces(
         .filter(|(_, edge)| edge.is_straight())
         .map(|([a, b], _)| [a.face, b.face])
         .collect();
-    let axes: Vec<DVec3> = lift
-        .directions
-        .iter()
-        .filter_map(|d| (view.rotation() * *d).try_normalize())
-        .map(exact_axis)
-        .collect();
-    Ok(snap(&measured, &smooth, &axes, tolerance))
-}
-
-/// A direction without the rounding that turning it upright left.
-fn exact_axis(d: DVec3) -> DVec3 {
-    let axis = DVec3::AXES
-        .into_iter()
-        .find(|a| d.cross(*a).length() < 1e-9);
-    axis.map_or(d, |a| a * d.dot(a).signum())
-}
-
-/// The vertices where their surfaces meet.
-///
-/// # Errors
-/// [`PlanError::OffSurface`] if a vertex stays farther than `limit` from one of them.
-fn meet_vertices(
-    drawing: &Drawing,
-    uses: &[[Use; 2]],
-    snapped: &Snapped,
-    outlines: &[Option<Support>],
-    lifted: &[DVec3],
-    limit: f64,
-) -> Result<Vec<DVec3>, PlanError> {
-    // Edges and faces at each vertex.
-    let mut around: Vec<Vec<(usize, usize)>> = vec![Vec::new(); lifted.len()];
-    for (e, pair) in uses.iter().enumerate() {
-        for v in drawing.edges[e].v {
-            around[v].extend(pair.iter().map(|u| (e, u.face)));
-        }
-    }
-    let mut vertices = Vec::with_capacity(lifted.len());
-    for (v, start) in lifted.iter().enumerate() {
-        let mut of: Vec<usize> = around[v].iter().map(|(_, f)| snapped.of_face[*f]).collect();
-        of.sort_unstable();
-        of.dedup();
-        let mut surfaces: Vec<Support> = of.iter().map(|&s| snapped.supports[s]).collect();
-        for &(e, _) in &around[v] {
-            if let Some(outline) = outlines[e]
-                && !surfaces.contains(&outline)
-            {
-                surfaces.push(outline);
-            }
-        }
-        let p = meet(*start, &surfaces);
-        for &(e, f) in &around[v] {
-            let gap = snapped.supports[snapped.of_face[f]].distance(p).abs();
-            if gap.is_nan() || gap > limit {
-                return Err(PlanError::OffSurface {
-                    edge: e + 1,
-                    face: f + 1,
-                    gap,
-                });
-            }
-        }
-        vertices.push(p);
-    }
-    Ok(vertices)
+    Ok(snap(&measured, &smooth, axes, tolerance))
 }

@@ -2,14 +2,16 @@
 //! valid solid, how long it takes, and why the others fail.
 //!
 //! ```text
-//! cargo run --release -p faceformer-occt --example measure -- DATA.jsonl.zst [--limit N] [--all] [--list]
+//! cargo run --release -p faceformer-occt --example measure -- DATA.jsonl.zst [--limit N] [--all] [--list] [--dump DIR]
 //! ```
-//! Only drawings of planes and cylinders count, unless `--all`. `--list` names the failures.
+//! Only drawings of planes and cylinders count, unless `--all`. `--list` names the failures, `--dump`
+//! writes the plans and partial shells of failures for inspection.
 
 #[path = "../tests/common/truth.rs"]
 mod truth;
 
 use std::collections::BTreeMap;
+use std::path::Path;
 use std::time::Instant;
 
 use faceformer::Progress;
@@ -26,6 +28,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         Some(n) => n.parse()?,
         None => usize::MAX,
     };
+    let dump = arguments.iter().position(|a| a == "--dump");
+    let dump = dump.and_then(|i| arguments.get(i + 1));
     let data = arguments.first().ok_or("name a data set")?;
     let mut failures: BTreeMap<String, Vec<String>> = BTreeMap::new();
     let (mut count, mut valid, mut unmerged) = (0, 0, 0);
@@ -40,7 +44,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             break;
         }
         count += 1;
-        let result = measure(&drawing);
+        let result = measure(&drawing, dump.map(Path::new));
         match result {
             Ok(m) => {
                 valid += 1;
@@ -99,14 +103,30 @@ fn is_simple(drawing: &Drawing) -> bool {
         .all(|k| matches!(k, SurfaceKind::Plane | SurfaceKind::Cylinder))
 }
 
-fn measure(drawing: &Drawing) -> Result<Measured, String> {
+fn measure(drawing: &Drawing, dump: Option<&Path>) -> Result<Measured, String> {
     let faces = from_truth(drawing).ok_or("no truth")?.faces;
     let lift = truth::true_lift(drawing).ok_or("no truth")?;
     let start = Instant::now();
     let plan = plan(drawing, &faces, &lift, &PlanOptions::default()).map_err(|e| e.to_string())?;
     let plan_ms = start.elapsed().as_secs_f64() * 1e3;
     let start = Instant::now();
-    let solid = build(&plan, Progress::none()).map_err(|e| e.to_string())?;
+    let solid = build(&plan, Progress::none()).map_err(|e| {
+        if let Some(folder) = dump {
+            let name = drawing.id.replace(['/', '#'], "-");
+            let json = serde_json::to_string(&plan).unwrap_or_default();
+            let written =
+                std::fs::write(folder.join(format!("{name}.json")), json).and_then(|()| {
+                    std::fs::write(
+                        folder.join(format!("{name}.brep")),
+                        e.partial().unwrap_or_default(),
+                    )
+                });
+            if let Err(e) = written {
+                eprintln!("{name}: {e}");
+            }
+        }
+        e.to_string()
+    })?;
     let report = solid.report();
     Ok(Measured {
         merged: report.merged,

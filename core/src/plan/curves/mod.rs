@@ -8,6 +8,7 @@ use glam::DVec3;
 use crate::drawing::{Curve2, Edge};
 
 use super::conic::{Conic, fit_plane};
+use super::lengths::Lengths;
 use super::support::Support;
 use super::view::View;
 use super::{Curve3, PlanError};
@@ -31,17 +32,6 @@ pub(super) struct Place<'a> {
     pub(super) supports: [Support; 2],
     /// Whether both faces have the same surface.
     pub(super) same: bool,
-}
-
-/// Lengths that curves are judged by.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Lengths {
-    /// Half diagonal of the drawing.
-    pub(super) size: f64,
-    /// Within this, what was measured may be taken for what was meant.
-    pub(super) snap: f64,
-    /// Beyond this, an edge is off its surface.
-    pub(super) limit: f64,
 }
 
 /// The curve of an edge.

@@ -171,8 +171,9 @@ fn solve(mut m: [[f64; 6]; 5]) -> Option<[f64; 5]> {
         for r in 0..5 {
             if r != c {
                 let f = m[r][c] / m[c][c];
-                for j in c..6 {
-                    m[r][j] -= f * m[c][j];
+                let row = m[c];
+                for (x, y) in m[r].iter_mut().zip(row) {
+                    *x -= f * y;
                 }
             }
         }
