@@ -2,10 +2,11 @@
 //! valid solid, how long it takes, and why the others fail.
 //!
 //! ```text
-//! cargo run --release -p faceformer-occt --example measure -- DATA.jsonl.zst [--limit N] [--all] [--list] [--dump DIR]
+//! cargo run --release -p faceformer-occt --example measure -- DATA.jsonl.zst [--all] [--lift] [--list] [--each] [--dump DIR]
 //! ```
-//! Only drawings of planes and cylinders count, unless `--all`. `--list` names the failures, `--dump`
-//! writes the plans and partial shells of failures for inspection.
+//! The depths are the true ones, or with `--lift` those that lifting finds for the true faces. Only
+//! drawings of planes and cylinders count, unless `--all`. `--list` names the failures, `--each`
+//! prints one JSON line a drawing, `--dump` writes the plans and partial shells of failures.
 
 #[path = "../tests/common/truth.rs"]
 mod truth;
@@ -17,17 +18,13 @@ use std::time::Instant;
 use faceformer::Progress;
 use faceformer::drawing::{Drawing, SurfaceKind};
 use faceformer::identify::from_truth;
+use faceformer::lift::{LiftOptions, lift};
 use faceformer::plan::{PlanOptions, plan};
-use faceformer_occt::build;
+use faceformer_occt::{SolidReport, build};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let flag = |name: &str| arguments.iter().any(|a| a == name);
-    let limit = arguments.iter().position(|a| a == "--limit");
-    let limit = match limit.and_then(|i| arguments.get(i + 1)) {
-        Some(n) => n.parse()?,
-        None => usize::MAX,
-    };
     let dump = arguments.iter().position(|a| a == "--dump");
     let dump = dump.and_then(|i| arguments.get(i + 1));
     let data = arguments.first().ok_or("name a data set")?;
@@ -40,16 +37,20 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         if !flag("--all") && !is_simple(&drawing) {
             continue;
         }
-        if count == limit {
-            break;
-        }
         count += 1;
-        let result = measure(&drawing, dump.map(Path::new));
+        let result = measure(&drawing, flag("--lift"), dump.map(Path::new));
+        if flag("--each") {
+            let line = match &result {
+                Ok(m) => serde_json::json!({"id": drawing.id, "report": m.report}),
+                Err(what) => serde_json::json!({"id": drawing.id, "error": what}),
+            };
+            println!("{line}");
+        }
         match result {
             Ok(m) => {
                 valid += 1;
-                unmerged += usize::from(!m.merged);
-                if !m.merged {
+                unmerged += usize::from(!m.report.merged);
+                if !m.report.merged {
                     let ids = failures
                         .entry("(not merged, but valid)".to_owned())
                         .or_default();
@@ -57,7 +58,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 }
                 plan_ms.push(m.plan_ms);
                 build_ms.push(m.build_ms);
-                largest_tolerance = largest_tolerance.max(m.tolerance);
+                largest_tolerance =
+                    largest_tolerance.max(m.report.largest_tolerance / drawing.size());
             }
             Err(what) => {
                 let class: String = what.chars().filter(|c| !c.is_ascii_digit()).collect();
@@ -90,10 +92,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 }
 
 struct Measured {
-    merged: bool,
+    report: SolidReport,
     plan_ms: f64,
     build_ms: f64,
-    tolerance: f64,
 }
 
 fn is_simple(drawing: &Drawing) -> bool {
@@ -103,9 +104,14 @@ fn is_simple(drawing: &Drawing) -> bool {
         .all(|k| matches!(k, SurfaceKind::Plane | SurfaceKind::Cylinder))
 }
 
-fn measure(drawing: &Drawing, dump: Option<&Path>) -> Result<Measured, String> {
+fn measure(drawing: &Drawing, lifted: bool, dump: Option<&Path>) -> Result<Measured, String> {
     let faces = from_truth(drawing).ok_or("no truth")?.faces;
-    let lift = truth::true_lift(drawing).ok_or("no truth")?;
+    let lift = if lifted {
+        let options = LiftOptions::default();
+        lift(drawing, &faces, &options, Progress::none()).map_err(|e| e.to_string())?
+    } else {
+        truth::true_lift(drawing).ok_or("no truth")?
+    };
     let start = Instant::now();
     let plan = plan(drawing, &faces, &lift, &PlanOptions::default()).map_err(|e| e.to_string())?;
     let plan_ms = start.elapsed().as_secs_f64() * 1e3;
@@ -127,12 +133,10 @@ fn measure(drawing: &Drawing, dump: Option<&Path>) -> Result<Measured, String> {
         }
         e.to_string()
     })?;
-    let report = solid.report();
     Ok(Measured {
-        merged: report.merged,
+        report: solid.report().clone(),
         plan_ms,
         build_ms: start.elapsed().as_secs_f64() * 1e3,
-        tolerance: report.largest_tolerance / drawing.size(),
     })
 }
 
