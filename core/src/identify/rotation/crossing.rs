@@ -1,7 +1,8 @@
 //! Vertices where two smooth curves cross.
 
 use super::ends::End;
-use crate::drawing::Graph;
+use super::rings::Rings;
+use crate::drawing::{CoEdge, Graph};
 
 /// How likely two co-edges at a vertex of degree 4 lie opposite each other on the surface because
 /// two smooth curves cross there.
@@ -19,21 +20,28 @@ pub(super) struct Crossings {
 const ANGLE: f64 = 0.08;
 /// Weight of a full mismatch of curvature.
 const BEND: f64 = 2.0;
+/// What two arcs of one circle are worth.
+const RING: f64 = 2.0;
 /// Cost at which a crossing is as likely as none.
 const NONE: f64 = 3.0;
 
 impl Crossings {
     /// Looks at every vertex of degree 4; `size` is the drawing's.
-    pub(super) fn new(graph: &Graph, ends: &[End], size: f64) -> Self {
+    pub(super) fn new(graph: &Graph, ends: &[End], rings: &Rings, size: f64) -> Self {
         let pairings = (0..graph.vertex_count())
             .map(|v| match graph.leaving(v) {
                 [a, b, c, d] => {
-                    let [a, b, c, d] = [a, b, c, d].map(|c| ends[c.index()]);
-                    let cost = |x: [End; 2], y: [End; 2]| {
-                        if x[0].straight && x[1].straight && y[0].straight && y[1].straight {
+                    let cost = |x: [&CoEdge; 2], y: [&CoEdge; 2]| {
+                        let pairs = [x, y].map(|pair| pair.map(|c| &ends[c.index()]));
+                        if pairs.iter().flatten().all(|end| end.straight) {
                             return f64::INFINITY;
                         }
-                        through(&x[0], &x[1], size) + through(&y[0], &y[1], size)
+                        let ring = |[a, b]: [&CoEdge; 2]| {
+                            let ring = rings.of(a.edge());
+                            ring.is_some() && ring == rings.of(b.edge())
+                        };
+                        let bonus = if ring(x) || ring(y) { RING } else { 0.0 };
+                        pairs.iter().map(|[a, b]| through(a, b, size)).sum::<f64>() - bonus
                     };
                     let costs = [
                         cost([a, b], [c, d]),

@@ -1,6 +1,6 @@
 //! Scores without a trained model.
 
-use super::features::{COUNT, features};
+use super::features::{COUNT, Feature, features};
 use super::{TripleScorer, Triples};
 use crate::drawing::{Drawing, Graph};
 use crate::{Progress, Result};
@@ -16,7 +16,9 @@ pub struct HandScorer {
 
 impl Default for HandScorer {
     fn default() -> Self {
-        Self { weights: WEIGHTS }
+        Self {
+            weights: Feature::ALL.map(weight),
+        }
     }
 }
 
@@ -34,9 +36,47 @@ impl TripleScorer for HandScorer {
     }
 }
 
-/// Weights, in the order of the features.
-const WEIGHTS: [f64; COUNT] = [
-    2.237, 3.125, 2.642, 2.505, 2.907, 0.763, 0.159, -1.282, -2.977, 4.112, 0.328, 0.150, 0.000,
-    -0.218, 0.795, 0.921, 0.538, -0.380, -0.196, 0.260, -1.168, -0.336, -2.224, -0.059, 0.059,
-    0.387, 0.742, 1.523, 0.348, 2.826, 0.000,
-];
+/// Weight of a feature, log-odds for one unit of it.
+const fn weight(feature: Feature) -> f64 {
+    match feature {
+        Feature::ParallelSame => 1.09,
+        Feature::ParallelOpposite => 2.23,
+        Feature::NearlySame => 1.89,
+        Feature::NearlyOpposite => 2.10,
+        Feature::TangentsSame => 1.62,
+        Feature::TangentsOpposite => -0.90,
+        Feature::MixedSame => -0.58,
+        Feature::MixedOpposite => -1.26,
+        Feature::CongruentStraight => -2.31,
+        Feature::CongruentCurved => 1.61,
+        Feature::SideStraight => 0.13,
+        Feature::SideCurved => -0.06,
+        Feature::CycleOne => 0.00,
+        Feature::CycleTwo => -1.00,
+        Feature::CycleThree => 0.42,
+        Feature::CycleFour => 0.88,
+        Feature::CycleFive => 0.90,
+        Feature::CycleSix => -0.07,
+        Feature::CycleNone => 0.01,
+        Feature::Longer => 0.55,
+        Feature::LongerAtEnds => -0.74,
+        Feature::LongerAtEnd => -1.27,
+        Feature::Cross => -1.33,
+        Feature::CrossingOpposite => -0.40,
+        Feature::CrossingAdjacent => 0.40,
+        Feature::SmoothOne => 0.03,
+        Feature::SmoothBoth => 0.36,
+        Feature::StraightOn => 0.75,
+        Feature::SmoothOn => 0.01,
+        Feature::FoldBack => 1.92,
+        Feature::Plane => -0.41,
+        Feature::Cylinder => 0.80,
+        Feature::Neither => -2.77,
+        Feature::RingMates => 2.24,
+        Feature::RingSame => 1.14,
+        Feature::RingOpposite => 0.58,
+        Feature::RingParallel => 3.08,
+        Feature::RingUnlike => 1.38,
+        Feature::RingAll => 0.97,
+    }
+}

@@ -8,8 +8,10 @@ mod decode;
 mod ends;
 mod engine;
 pub mod features;
+mod frame;
 mod hand;
 mod orders;
+mod rings;
 #[cfg(test)]
 mod samples;
 mod scorer;
