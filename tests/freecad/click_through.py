@@ -120,7 +120,9 @@ def test_messages(window, document, sketch):
     """What is wrong in a drawing is said in the panel, and nothing is changed."""
     broken = document.copyObject(sketch)
     broken.Label = "Open Wireframe"
-    broken.delGeometry(3)
+    for obj in document.Objects:
+        obj.ViewObject.Visibility = obj is broken
+    broken.addGeometry(Part.LineSegment(V(0, 0), V(60, 60)), False)
     document.recompute()
     select(document, broken)
     wait_until(lambda: "IdentifyFaces" in buttons(window), 3000)

@@ -17,7 +17,7 @@ from .picking import Picker
 from .qt import QtCore, QtGui, QtWidgets, flags
 from .report import show_error
 from .session import Outcome, Session
-from .show import show_solid, view_3d
+from .show import face_drawing, show_solid, view_3d
 from .worker import Task, is_cancelled, run
 
 POLL = 40
@@ -56,6 +56,7 @@ def _show(session: Session) -> Panel:
     panel = Panel(session)
     FreeCADGui.Selection.clearSelection()
     FreeCADGui.Control.showDialog(panel)
+    face_drawing(session.drawn.placement)
     panel.start()
     return panel
 
@@ -90,6 +91,7 @@ class Panel:
         FreeCADGui.Selection.addSelectionGate(selection.DrawingGate())
         self._observer = _DocumentObserver(self)
         FreeCAD.addDocumentObserver(self._observer)
+        self._show_target(False)
         _open_panel = self
 
     # What FreeCAD calls
@@ -126,8 +128,8 @@ class Panel:
             return False
         self._read_options()
         try:
-            run(self.session.build())
-            self.session.convert()
+            built = run(self.session.build())
+            solid = self.session.convert()
         except FaceformerError as error:
             if not is_cancelled(error):
                 self._show_messages(error)
@@ -135,7 +137,7 @@ class Panel:
         new = self.session.target is None
         self.close()
         if new:
-            show_solid()
+            show_solid(solid, built, self.session.outcome.drawing)
         return True
 
     def reject(self) -> bool:
@@ -166,6 +168,7 @@ class Panel:
         self._remove_patches()
         FreeCADGui.Selection.removeSelectionGate()
         FreeCAD.removeDocumentObserver(self._observer)
+        self._show_target(True)
         FreeCADGui.Control.closeDialog()
         if self.session.target is not None and FreeCADGui.ActiveDocument is not None:
             FreeCADGui.ActiveDocument.resetEdit()
@@ -231,10 +234,16 @@ class Panel:
             notices = outcome.identified.identification.notices
             findings += [Finding("notice", text, (), ()) for text in notices]
         if error is not None and not is_cancelled(error):
-            FreeCAD.Console.PrintError(f"Faceformer: {error}\n")
+            FreeCAD.Console.PrintLog(f"Faceformer: {error}\n")
             if str(error) not in [finding.message for finding in findings]:
                 findings.insert(0, Finding("error", str(error), (), ()))
         self.form.show_messages(findings)
+
+    def _show_target(self, visible: bool) -> None:
+        """Takes the edited solid out of the way of its drawing."""
+        target = self.session.target
+        if target is not None and target.ViewObject is not None:
+            target.ViewObject.Visibility = visible
 
     def _show_source(self) -> None:
         count = len(self.session.drawn.edges)

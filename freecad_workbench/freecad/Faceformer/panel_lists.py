@@ -45,6 +45,11 @@ class FaceList(QtWidgets.QTreeWidget):
         self.headerItem().setToolTip(
             3, translate("Faceformer", "Confidence: how probable it is that the face is right")
         )
+        header = self.header()
+        header.setStretchLastSection(False)
+        for column in range(self.columnCount() - 1):
+            header.setSectionResizeMode(column, QtWidgets.QHeaderView.ResizeToContents)
+        header.setSectionResizeMode(self.columnCount() - 1, QtWidgets.QHeaderView.Stretch)
         self.setMinimumSize(120, 220)
         self.itemSelectionChanged.connect(self._selection_changed)
         self.itemChanged.connect(self._item_changed)
@@ -55,8 +60,6 @@ class FaceList(QtWidgets.QTreeWidget):
         self.clear()
         for number, face in enumerate(faces):
             self.addTopLevelItem(self._row(number, face, face.key not in off))
-        for column in range(self.columnCount() - 1):
-            self.resizeColumnToContents(column)
         self.blockSignals(False)
 
     def pick(self, number: int | None) -> None:

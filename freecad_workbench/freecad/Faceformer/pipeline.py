@@ -18,6 +18,8 @@ from typing import Any, TypeVar
 from . import _native
 from .errors import BadInput, Failed
 from .model import Drawing, Identification
+from .plane import Vector
+from .pose import turn
 
 ENGINES = ("rotation", "varley", "shortest")
 """Engines of the library, the default first."""
@@ -63,6 +65,14 @@ class Built:
     report: dict[str, Any]
     lift: dict[str, Any] = field(repr=False)
     plan: dict[str, Any] = field(repr=False)
+
+    def axes_from(self, drawing: Drawing) -> tuple[Vector, Vector, Vector] | None:
+        """Where the drawing's x, y and z axis are in the model."""
+        depths = self.lift.get("depths", [])
+        if len(depths) != len(drawing.vertices):
+            return None
+        drawn = [(x, y, z) for (x, y), z in zip(drawing.vertices, depths, strict=True)]
+        return turn(drawn, [tuple(vertex) for vertex in self.plan.get("vertices", [])])
 
     @property
     def notices(self) -> tuple[str, ...]:

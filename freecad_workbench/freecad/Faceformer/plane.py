@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The plane of a cloud of points, and a frame in it that stands the way people draw."""
+"""Vectors as plain tuples, and the plane of a cloud of points with a frame as people draw it."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 Vector = tuple[float, float, float]
 
@@ -11,7 +12,23 @@ COLLINEAR = 1e-6
 """Points closer than this share of their extent to one line span no plane."""
 
 
-def fit_plane(points: list[Vector]) -> tuple[Vector, Vector, Vector, Vector] | None:
+def widest(points: Sequence[Vector]) -> tuple[int, int, int] | None:
+    """Three points far apart, as indices; None if all lie on one line."""
+    if not points:
+        return None
+    indices = range(len(points))
+    second = max(indices, key=lambda k: distance(points[k], points[0]))
+    along = sub(points[second], points[0])
+    extent = norm(along)
+    if extent == 0.0:
+        return None
+    along = scale(along, 1 / extent)
+    away = [norm(cross(along, sub(p, points[0]))) for p in points]
+    third = max(indices, key=away.__getitem__)
+    return (0, second, third) if away[third] > COLLINEAR * extent else None
+
+
+def fit_plane(points: Sequence[Vector]) -> tuple[Vector, Vector, Vector, Vector] | None:
     """Origin, x, y and z axis of the plane that the points span; None if they are collinear.
 
     The plane goes through three points far apart, so points in one plane give it exactly, and
@@ -19,48 +36,46 @@ def fit_plane(points: list[Vector]) -> tuple[Vector, Vector, Vector, Vector] | N
     for a vertical plane, or along x, as FreeCAD's own sketch planes do. The origin is the
     model's origin dropped on the plane, so the XY plane gets the model's coordinates.
     """
-    first = points[0]
-    second = max(points, key=lambda p: _distance(p, first))
-    along = _sub(second, first)
-    extent = _norm(along)
-    if extent == 0.0:
+    corners = widest(points)
+    if corners is None:
         return None
-    along = _scale(along, 1 / extent)
-    third = max(points, key=lambda p: _norm(_cross(along, _sub(p, first))))
-    normal = _cross(along, _sub(third, first))
-    if _norm(normal) <= COLLINEAR * extent:
-        return None
-    z = _viewer_side(_scale(normal, 1 / _norm(normal)))
-    origin = _scale(z, _dot(z, first))
-    horizontal = _cross((0.0, 0.0, 1.0), z)
-    if _norm(horizontal) < 1e-9:
+    first, second, third = (points[k] for k in corners)
+    normal = cross(sub(second, first), sub(third, first))
+    z = _viewer_side(scale(normal, 1 / norm(normal)))
+    origin = scale(z, dot(z, first))
+    horizontal = cross((0.0, 0.0, 1.0), z)
+    if norm(horizontal) < 1e-9:
         x: Vector = (1.0, 0.0, 0.0)
     else:
-        x = _scale(horizontal, 1 / _norm(horizontal))
-    return origin, x, _cross(z, x), z
+        x = scale(horizontal, 1 / norm(horizontal))
+    return origin, x, cross(z, x), z
 
 
 def _viewer_side(z: Vector) -> Vector:
     """The normal or its opposite: up, else to the front, else to the right."""
     for value in (z[2], -z[1], z[0]):
         if abs(value) > 1e-9:
-            return z if value > 0 else _scale(z, -1.0)
+            return z if value > 0 else scale(z, -1.0)
     return z
 
 
-def _sub(a: Vector, b: Vector) -> Vector:
+def sub(a: Vector, b: Vector) -> Vector:
+    """Difference."""
     return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
 
 
-def _scale(a: Vector, s: float) -> Vector:
+def scale(a: Vector, s: float) -> Vector:
+    """Multiple."""
     return (a[0] * s, a[1] * s, a[2] * s)
 
 
-def _dot(a: Vector, b: Vector) -> float:
+def dot(a: Vector, b: Vector) -> float:
+    """Scalar product."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
-def _cross(a: Vector, b: Vector) -> Vector:
+def cross(a: Vector, b: Vector) -> Vector:
+    """Vector product."""
     return (
         a[1] * b[2] - a[2] * b[1],
         a[2] * b[0] - a[0] * b[2],
@@ -68,9 +83,11 @@ def _cross(a: Vector, b: Vector) -> Vector:
     )
 
 
-def _norm(a: Vector) -> float:
-    return math.sqrt(_dot(a, a))
+def norm(a: Vector) -> float:
+    """Length."""
+    return math.sqrt(dot(a, a))
 
 
-def _distance(a: Vector, b: Vector) -> float:
-    return _norm(_sub(a, b))
+def distance(a: Vector, b: Vector) -> float:
+    """Length of the difference."""
+    return norm(sub(a, b))

@@ -5,17 +5,32 @@ from __future__ import annotations
 
 from typing import Any
 
+import FreeCAD
 import FreeCADGui
 
 from . import preferences
+from .model import Drawing
+from .pipeline import Built
 
 
-def show_solid() -> None:
-    """Turns the view so that a new solid is seen as one, with nothing selected in front of it."""
+def show_solid(solid: Any, built: Built, drawing: Drawing) -> None:
+    """Shows a new solid the way it was drawn, with nothing selected in front of it."""
     FreeCADGui.Selection.clearSelection()
+    view, axes = view_3d(), built.axes_from(drawing)
+    if view is None or axes is None or not preferences.turn_view():
+        return
+    x, y, z = (FreeCAD.Vector(*axis) for axis in axes)
+    view.setCameraOrientation(solid.Placement.Rotation.multiply(FreeCAD.Rotation(x, y, z, "ZXY")).Q)
+    view.fitAll()
+
+
+def face_drawing(placement: FreeCAD.Placement) -> None:
+    """Turns the view so that it looks straight at a drawing, if it does not yet."""
     view = view_3d()
-    if view is not None and preferences.turn_view():
-        view.viewIsometric()
+    if view is None or not preferences.turn_view():
+        return
+    if not view.getCameraOrientation().isSame(placement.Rotation, 0.02):
+        view.setCameraOrientation(placement.Rotation.Q)
         view.fitAll()
 
 
@@ -31,10 +46,7 @@ def show_drawing(sketch: Any) -> None:
     """Selects a new drawing and looks straight at it."""
     FreeCADGui.Selection.clearSelection()
     FreeCADGui.Selection.addSelection(sketch)
-    view = view_3d()
-    if view is not None and preferences.turn_view():
-        view.viewTop()
-        view.fitAll()
+    face_drawing(sketch.Placement)
 
 
 def view_3d() -> Any | None:

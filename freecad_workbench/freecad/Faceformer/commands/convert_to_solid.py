@@ -47,10 +47,10 @@ class ConvertToSolid:
             session.outcome = run(session.work())
             if session.outcome.error is not None:
                 raise session.outcome.error
-            run(session.build())
-            session.convert()
+            built = run(session.build())
+            solid = session.convert()
         except FaceformerError as error:
             if not is_cancelled(error):
                 show_error(error)
             return
-        show_solid()
+        show_solid(solid, built, session.outcome.drawing)

@@ -11,6 +11,7 @@ from .test_native import NativeTest
 from .test_picking import PickingTest
 from .test_pipeline import PipelineTest
 from .test_plane import PlaneTest
+from .test_pose import PoseTest
 from .test_resources import ResourcesTest
 from .test_tessellate import TessellateTest
 from .test_wireframe import SketchWriterTest, WireframeTest
@@ -24,6 +25,7 @@ __all__ = [
     "PickingTest",
     "PipelineTest",
     "PlaneTest",
+    "PoseTest",
     "ResourcesTest",
     "SketchWriterTest",
     "TessellateTest",

@@ -83,7 +83,11 @@
       <translation type="unfinished"></translation>
     </message>
     <message>
-      <source>Confidence</source>
+      <source>Conf.</source>
+      <translation type="unfinished"></translation>
+    </message>
+    <message>
+      <source>Confidence: how probable it is that the face is right</source>
       <translation type="unfinished"></translation>
     </message>
     <message>
