@@ -96,10 +96,12 @@ fn continued(a: &Piece, b: &Piece, v: usize, reach: f64) -> Option<Piece> {
             let thin = thinned(&points);
             let curve = Curve2::recognise_within(&thin, reach);
             let lines = [x, y].iter().any(|c| matches!(c, Curve2::Line));
+            // Short pieces of any smooth curve look like ellipses, but leave a residual.
+            let exact = |c: &Curve2| matches!(c, Curve2::Ellipse(arc) if arc.residual <= reach);
             match curve {
                 Curve2::Ellipse(_) => (curve, thin),
                 _ if lines || turn > SMOOTH_TURN => return None,
-                _ if matches!((x, y), (Curve2::Ellipse(_), Curve2::Ellipse(_))) => return None,
+                _ if exact(x) && exact(y) => return None,
                 _ if !same_bend(&a, &b) => return None,
                 _ => (Curve2::Polyline, points),
             }
@@ -130,20 +132,18 @@ fn thinned(points: &[DVec2]) -> Vec<DVec2> {
         .collect()
 }
 
-/// Whether two pieces bend alike where they meet: both flat there, or curvatures of one sign that
-/// differ by less than half.
+/// Whether two pieces bend alike where they meet: both nearly flat there, or curvatures of one sign
+/// that differ by less than half.
 fn same_bend(a: &Piece, b: &Piece) -> bool {
-    let bend = |p: [DVec2; 3]| {
+    let bend = |p: &[DVec2]| {
         let (d, e) = (p[1] - p[0], p[2] - p[1]);
-        d.angle_to(e) / (d.length() + e.length()).max(f64::MIN_POSITIVE)
+        let step = (d.length() + e.length()) / 2.0;
+        (d.angle_to(e) / step.max(f64::MIN_POSITIVE), step)
     };
-    let [.., p, q, r] = a.points[..] else {
+    let (n, m) = (a.points.len(), b.points.len());
+    if n < 3 || m < 3 {
         return false;
-    };
-    let [s, t, u, ..] = b.points[..] else {
-        return false;
-    };
-    let (x, y) = (bend([p, q, r]), bend([s, t, u]));
-    let step = q.distance(r).max(s.distance(t));
-    (x - y).abs() <= 0.5 * x.abs().max(y.abs()) || (x - y).abs() * step < SMOOTH_TURN
+    }
+    let ((x, h), (y, k)) = (bend(&a.points[n - 3..]), bend(&b.points[..3]));
+    (x - y).abs() <= 0.5 * x.abs().max(y.abs()) || (x - y).abs() * h.max(k) < SMOOTH_TURN
 }

@@ -16,6 +16,7 @@ mod join;
 mod net;
 mod piece;
 mod snap;
+mod span;
 mod split;
 
 use glam::DVec2;
@@ -103,7 +104,7 @@ pub(super) fn clean_raw(
         net.take(i, e, exact);
     }
     if net.pieces.is_empty() {
-        return Err(DrawingError::Empty);
+        return Err(DrawingError::ZeroLength { edge: 1 });
     }
     let noise = net.tidy(reach, exact)?;
     net.drop_unused_vertices();
@@ -165,22 +166,26 @@ impl Net<'_> {
 
     /// The clean-up itself. Returns the distance within which the input turned out to be exact.
     fn tidy(&mut self, reach: f64, exact: f64) -> Result<f64, DrawingError> {
-        let exact = snap::estimate_noise(self, exact, reach);
-        snap::make_vertices(self, exact);
-        self.unite(exact, reach)?;
+        let noise = snap::estimate_noise(self, exact, reach);
+        // A vertex of many ends spreads wider than its nearest pairs do.
+        let spread = if noise > exact { 2.0 * noise } else { exact };
+        snap::make_vertices(self, spread.min(reach));
+        self.unite(noise, exact, reach)?;
         let moved = snap::close_gaps(self, reach);
-        let noise = (2.0 * moved).clamp(exact, reach);
-        self.unite(noise, reach)?;
+        let noise = noise.max(moved).min(reach);
+        self.unite(noise, exact, reach)?;
         split::split_at_ends(self, reach, exact)?;
-        self.unite(noise, reach)?;
+        self.unite(noise, exact, reach)?;
         Ok(noise)
     }
 
-    /// Makes one of what lies on each other and of what continues each other.
-    fn unite(&mut self, reach: f64, margin: f64) -> Result<(), DrawingError> {
-        split::split_overlaps(self, reach, margin)?;
-        duplicate::merge_duplicates(self, reach);
-        join::join_pieces(self, reach);
+    /// Makes one of what lies on each other and of what continues each other, to within `noise`.
+    fn unite(&mut self, noise: f64, exact: f64, reach: f64) -> Result<(), DrawingError> {
+        split::split_overlaps(self, noise, reach)?;
+        // Moving the ends of a curve moves its middle several times as far.
+        let apart = if noise > exact { reach } else { exact };
+        duplicate::merge_duplicates(self, apart);
+        join::join_pieces(self, noise);
         Ok(())
     }
 }
@@ -209,5 +214,7 @@ impl Piece {
     }
 }
 
+#[cfg(test)]
+mod restore;
 #[cfg(test)]
 mod tests;

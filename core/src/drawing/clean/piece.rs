@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use glam::DVec2;
 
 use super::super::{Curve2, EllipseArc};
+use super::span::Span;
 
 /// A curve piece: part of an input edge, one of them, or several joined.
 #[derive(Debug, Clone)]
@@ -23,7 +24,7 @@ pub(in super::super) struct Piece {
 /// A place on a piece.
 #[derive(Debug, Clone, Copy)]
 pub(in super::super) struct Foot {
-    /// Distance from the point it was asked for, beyond what the polyline's own chords leave open.
+    /// Distance from the point it was asked for, less what the polyline leaves open.
     pub(in super::super) distance: f64,
     /// Where on the piece, 0 at its first vertex to 1 at its second.
     pub(super) u: f64,
@@ -121,9 +122,8 @@ impl Piece {
         match &self.curve {
             Curve2::Ellipse(arc) => arc.point(arc.start + arc.sweep * u),
             _ => {
-                let x = u.clamp(0.0, 1.0) * (self.points.len() - 1) as f64;
-                let i = (x as usize).min(self.points.len() - 2);
-                self.points[i].lerp(self.points[i + 1], x - i as f64)
+                let (i, t) = self.segment(u);
+                Span::new(&self.points, i).point(t)
             }
         }
     }
@@ -133,11 +133,17 @@ impl Piece {
         match &self.curve {
             Curve2::Ellipse(arc) => arc.derivative(arc.start + arc.sweep * u) * arc.sweep,
             _ => {
-                let x = u.clamp(0.0, 1.0) * (self.points.len() - 1) as f64;
-                let i = (x as usize).min(self.points.len() - 2);
-                self.points[i + 1] - self.points[i]
+                let (i, t) = self.segment(u);
+                Span::new(&self.points, i).derivative(t)
             }
         }
+    }
+
+    /// Segment of the polyline at `u`, and where in it.
+    fn segment(&self, u: f64) -> (usize, f64) {
+        let x = u.clamp(0.0, 1.0) * (self.points.len() - 1) as f64;
+        let i = (x as usize).min(self.points.len() - 2);
+        (i, x - i as f64)
     }
 
     /// Nearest place on the piece.
@@ -174,12 +180,10 @@ impl Piece {
             }
         }
         if let Curve2::Polyline = self.curve {
-            // A chord of a smooth curve misses it by an eighth of the second difference.
-            let second = |i: usize| match (i.checked_sub(1), self.points.get(i + 1)) {
-                (Some(h), Some(next)) => (self.points[h] - 2.0 * self.points[i] + *next).length(),
-                _ => 0.0,
-            };
-            best.distance = (best.distance - second(at).max(second(at + 1)) / 8.0).max(0.0);
+            let span = Span::new(&self.points, at);
+            let t = span.foot(p, best.u * n as f64 - at as f64);
+            best.u = (at as f64 + t) / n as f64;
+            best.distance = (p.distance(span.point(t)) - span.doubt()).max(0.0);
         }
         best
     }

@@ -73,8 +73,7 @@ pub(super) fn estimate_noise(net: &Net<'_>, exact: f64, reach: f64) -> f64 {
     if open.len() < 3 || open.len() as f64 <= SLOPPY * ends.len() as f64 {
         return exact;
     }
-    // A vertex of many ends spreads wider than its nearest pairs.
-    (2.0 * open.into_iter().fold(0.0, f64::max)).min(reach)
+    open.into_iter().fold(0.0, f64::max)
 }
 
 /// Makes the vertices: ends within `reach` of the first end of a cluster are one vertex, at the

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use glam::DVec2;
 
 use super::super::grid::PointGrid;
-use super::super::{DrawingError, FindingKind};
+use super::super::{Curve2, DrawingError, FindingKind};
 use super::net::{Net, union};
 use super::piece::{Foot, Piece};
 
@@ -76,6 +76,11 @@ pub(in super::super) fn runs_along(
     other: &Piece,
     reach: f64,
 ) -> bool {
+    // A line that leaves an arc by the tangent, as a silhouette does, is near it for a while.
+    let line = |p: &Piece| matches!(p.curve, Curve2::Line);
+    if line(piece) != line(other) {
+        return false;
+    }
     let ends = (0..2).filter(|&end| other.v[end] == touch.vertex);
     ends.into_iter().any(|end| {
         let sign = if end == 0 { 1.0 } else { -1.0 };
@@ -97,7 +102,8 @@ pub(in super::super) fn runs_along(
 
 /// Cuts pieces at the ends of others that lie on them along a stretch, so that the common stretch
 /// becomes a pair of duplicates. No parts shorter than `margin` come off: the ends of twins miss
-/// each other by as much.
+/// each other by as much. Ends at complete vertices cut nothing: from some directions one edge of a
+/// solid is seen before another.
 ///
 /// # Errors
 /// [`DrawingError::TooLarge`] if so many ends lie on edges that cutting would multiply the edges.
@@ -108,10 +114,11 @@ pub(super) fn split_overlaps(
 ) -> Result<(), DrawingError> {
     let incidence = net.incidence();
     let mut cuts = all_touches(net, reach, margin)?;
+    let wanting = net.wanting();
     cuts.retain(|t| {
-        incidence[t.vertex]
-            .iter()
-            .any(|&i| i != t.piece && runs_along(&net.pieces[t.piece], t, &net.pieces[i], reach))
+        let piece = &net.pieces[t.piece];
+        let along = |&i: &usize| i != t.piece && runs_along(piece, t, &net.pieces[i], reach);
+        wanting[t.vertex] && incidence[t.vertex].iter().any(along)
     });
     split(net, &cuts, reach);
     Ok(())
