@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The two clicks in FreeCAD's window: Identify Faces, Convert to Solid. Run under Xvfb."""
 
+import time
+
 import FreeCAD
 import FreeCADGui
 import Part
-from freecad.Faceformer import api, panel
+from freecad.Faceformer import api, panel, worker
+from freecad.Faceformer.errors import Cancelled
 from freecad.Faceformer.qt import QtCore, QtWidgets
-from harness import check, run
+from harness import check, refuses, run
 from mouse import click, click_3d, click_item, screenshot, tool_button, wait, wait_until
 
 V = FreeCAD.Vector
@@ -122,7 +125,7 @@ def test_messages(window, document, sketch):
     broken.Label = "Open Wireframe"
     for obj in document.Objects:
         obj.ViewObject.Visibility = obj is broken
-    broken.addGeometry(Part.LineSegment(V(0, 0), V(60, 60)), False)
+    broken.addGeometry(Part.LineSegment(V(0, 0), V(14, 34)), False)
     document.recompute()
     select(document, broken)
     wait_until(lambda: "IdentifyFaces" in buttons(window), 3000)
@@ -139,6 +142,24 @@ def test_messages(window, document, sketch):
     check(not panel.current().accept(), "it cannot be converted")
     panel.current().reject()
     check(len(document.Objects) == objects, "and the document is as it was")
+
+
+def test_cancel(window):
+    """Long work shows a dialog, and its button ends the work."""
+
+    def work(progress):
+        while progress("build", 0.4):
+            time.sleep(0.02)
+        raise Cancelled("stopped")
+
+    def press():
+        dialog = window.findChild(QtWidgets.QProgressDialog)
+        screenshot("progress")
+        click(dialog.findChild(QtWidgets.QPushButton))
+
+    QtCore.QTimer.singleShot(1200, press)
+    refuses("cancelled work", ["stopped"], lambda: worker.run(work), Cancelled)
+    check(not window.findChild(QtWidgets.QProgressDialog).isVisible(), "the dialog is gone")
 
 
 def main():
@@ -160,6 +181,7 @@ def main():
     test_identify(window, document, sketch)
     test_convert(window, document)
     test_messages(window, document, sketch)
+    test_cancel(window)
 
 
 QtCore.QTimer.singleShot(1500, lambda: run(main))
