@@ -74,6 +74,25 @@ def project(shape: Part.Shape, direction: Any) -> list[Part.Edge]:
     return pieces
 
 
+def hidden_corners(shape: Part.Shape, direction: Any) -> int:
+    """Number of corners that are drawn in the same place as another corner.
+
+    Such a drawing does not tell which edges meet there; another direction is better.
+    """
+    rotation = camera(direction)
+    least = 1e-5 * shape.BoundBox.DiagonalLength
+    seen = sorted((rotation.multVec(v.Point) for v in shape.Vertexes), key=lambda p: p.x)
+    count = 0
+    for k, first in enumerate(seen):
+        for second in seen[k + 1 :]:
+            if second.x - first.x > least:
+                break
+            if abs(second.y - first.y) < least:
+                count += 1
+                break
+    return count
+
+
 def extraction(shape: Part.Shape, direction: Any) -> Extraction:
     """The pieces of the drawing as an edge list for the library."""
     edges = [
@@ -92,6 +111,15 @@ def add_sketch(
             translate("Faceformer", "Select a solid: the selection has no faces to draw.")
         )
     drawn = extraction(shape, direction)
+    covered = hidden_corners(shape, direction)
+    if covered:
+        FreeCAD.Console.PrintWarning(
+            translate(
+                "Faceformer",
+                "{} corners are drawn on top of another one. A direction further away from the "
+                "part's own diagonals and axes gives a clearer drawing.\n",
+            ).format(covered)
+        )
     try:
         _, drawing = pipeline.read(drawn.to_json(), [edge.name for edge in drawn.edges])
     except LibraryMissing as error:

@@ -8,7 +8,7 @@ import Part
 from .. import sketch_writer
 from ..errors import BadInput
 from ..model import Drawing
-from ..wireframe import camera, extraction, project
+from ..wireframe import camera, extraction, hidden_corners, project
 from .test_extract import DocumentTest
 from .test_model import NAMES, REPORT
 
@@ -59,6 +59,12 @@ class WireframeTest(unittest.TestCase):
         drawn = extraction(Part.makeBox(1, 2, 3), (1, -1.3, 0.8))
         self.assertEqual(drawn.edges[0].name, "Edge1")
         self.assertTrue(all(len(edge.points) == 2 for edge in drawn.edges))
+
+    def test_corners_that_cover_each_other_are_counted(self):
+        cube = Part.makeBox(10, 10, 10)
+        self.assertEqual(hidden_corners(cube, (1, -1.3, 0.8)), 0)
+        self.assertEqual(hidden_corners(cube, (1, -1, 1)), 1)
+        self.assertEqual(hidden_corners(cube, (0, 0, 1)), 4)
 
     def test_a_direction_without_length_is_refused(self):
         for direction in ((0, 0, 0), (math.nan, 0, 1)):

@@ -275,6 +275,11 @@
       <translation type="unfinished"></translation>
     </message>
     <message>
+      <source>{} corners are drawn on top of another one. A direction further away from the part's own diagonals and axes gives a clearer drawing.
+</source>
+      <translation type="unfinished"></translation>
+    </message>
+    <message>
       <source>{} has a coordinate that is not a finite number. Draw it again.</source>
       <translation type="unfinished"></translation>
     </message>
