@@ -112,11 +112,28 @@ def test_convert(window, document):
     check(opened and panel.current().session.target is solid, "editing opens the panel")
     panel.current().reject()
     check(panel.current() is None, "and closing it ends the editing")
+    test_edit(solid)
 
     document.undo()
     check(len(document.Objects) == objects, "one undo removes the solid")
     document.redo()
     check(len(document.Objects) == objects + 1, "one redo brings it back")
+
+
+def test_edit(solid):
+    """The panel changes a solid in one undo step."""
+    volume = solid.Shape.Volume
+    FreeCADGui.ActiveDocument.setEdit(solid.Name)
+    wait_until(lambda: panel.current() is not None and not panel.current().busy())
+    check(not solid.ViewObject.Visibility, "the solid makes room for its drawing")
+    panel.current().form.findChild(QtWidgets.QDoubleSpinBox).setValue(2)
+    check(panel.current().accept(), "the panel accepts a change")
+    check(solid.ViewObject.Visibility, "the solid is back")
+    check(abs(solid.Shape.Volume / volume - 8) < 1e-6, "twice the scale, eight times the volume")
+    check(FreeCADGui.ActiveDocument.getInEdit() is None, "the editing has ended")
+    solid.Document.undo()
+    solid.Document.recompute()
+    check(abs(solid.Shape.Volume / volume - 1) < 1e-6, "one undo takes it back")
 
 
 def test_messages(window, document, sketch):
@@ -142,6 +159,25 @@ def test_messages(window, document, sketch):
     check(not panel.current().accept(), "it cannot be converted")
     panel.current().reject()
     check(len(document.Objects) == objects, "and the document is as it was")
+
+
+def test_wireframe(window, document, solid):
+    """The way back asks for a direction and makes one sketch in one undo step."""
+    select(document, solid)
+    wait_until(lambda: "WireframeFromSolid" in buttons(window), 3000)
+    objects, undo = len(document.Objects), document.UndoCount
+
+    def accept():
+        dialog = QtWidgets.QApplication.activeModalWidget()
+        screenshot("direction")
+        dialog.accept()
+
+    QtCore.QTimer.singleShot(800, accept)
+    click(tool_button(window, "Faceformer_WireframeFromSolid"))
+    check(len(document.Objects) == objects + 1, "a wireframe is made")
+    check(document.UndoCount == undo + 1, "in one undo step")
+    document.undo()
+    check(len(document.Objects) == objects, "which takes it away")
 
 
 def test_cancel(window):
@@ -181,6 +217,7 @@ def main():
     test_identify(window, document, sketch)
     test_convert(window, document)
     test_messages(window, document, sketch)
+    test_wireframe(window, document, solid)
     test_cancel(window)
 
 
