@@ -27,6 +27,11 @@ ENGINES = ("rotation", "varley", "shortest")
 ORIENTATIONS = ("upright", "drawn")
 """``upright`` turns the model so that its axes are the main axes, ``drawn`` leaves it as seen."""
 
+MOST_NAMES = 8
+"""Edges that a message names; more would hide what it says."""
+
+_CORNERS = r"\bvert(?:ex \d+|ices \[\d+(?:, \d+)*\])"
+
 Progress = _native.Progress
 Result = TypeVar("Result")
 
@@ -163,12 +168,22 @@ def names_in_errors(drawing: Drawing) -> Iterator[None]:
 def with_names(message: str, drawing: Drawing) -> str:
     """A message of the library with the names of the source's edges in the place of numbers."""
 
-    def name(match: re.Match[str]) -> str:
+    def edge(match: re.Match[str]) -> str:
         number = int(match.group(1)) - 1
         names = drawing.names_of([number]) if number < len(drawing.edges) else ()
         return ", ".join(names) or match.group(0)
 
-    return re.sub(r"\bedge (\d+)\b", name, message)
+    def corner(match: re.Match[str]) -> str:
+        vertices = {int(number) for number in re.findall(r"\d+", match.group(0))}
+        edges = [k for k, edge in enumerate(drawing.edges) if vertices & set(edge.vertices)]
+        names = drawing.names_of(edges)
+        if not names:
+            return match.group(0)
+        more = ["..."] if len(names) > MOST_NAMES else []
+        where = "the corner of" if len(vertices) == 1 else "corners of"
+        return f"{where} {', '.join([*names[:MOST_NAMES], *more])}"
+
+    return re.sub(_CORNERS, corner, re.sub(r"\bedge (\d+)\b", edge, message))
 
 
 def chosen_faces(identification: Identification, options: SolidOptions) -> dict[str, Any]:

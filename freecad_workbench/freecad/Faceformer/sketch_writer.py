@@ -14,6 +14,9 @@ from .model import Drawing, Edge, Ellipse
 CIRCLE_RATIO = 1e-6
 """An ellipse whose axes differ by less than this share is written as a circle."""
 
+MOST_TIED = 250
+"""Curves of a sketch whose ends are tied; FreeCAD's solver takes minutes for a thousand."""
+
 FULL_TURN = 2 * math.pi * (1 - 1e-9)
 
 Joint = tuple[tuple[int, int], tuple[int, int]]
@@ -38,11 +41,14 @@ def convert(drawing: Drawing) -> tuple[list[Any], list[Joint]]:
 
 
 def write(sketch: Any, geometry: list[Any], joints: list[Joint]) -> None:
-    """Adds geometry to a sketch and ties the ends that coincide, so that they move together."""
+    """Adds geometry to a sketch and ties the ends that coincide, so that they move together.
+
+    A large drawing is left untied: its ends still meet.
+    """
     import Sketcher
 
     sketch.addGeometry(geometry, False)
-    if joints:
+    if joints and len(geometry) <= MOST_TIED:
         sketch.addConstraint(
             [Sketcher.Constraint("Coincident", *first, *second) for first, second in joints]
         )

@@ -50,8 +50,16 @@ class PipelineTest(unittest.TestCase):
 
     def test_errors_name_the_edges_of_the_source(self):
         drawing = self.identification.drawing
-        text = with_names("edge 1 and edge 2 meet at vertex 1; edge 99 does not", drawing)
-        self.assertEqual(text, "Edge1, Edge4 and Edge2 meet at vertex 1; edge 99 does not")
+        text = with_names("edge 1 and edge 2 do not fit; edge 99 does", drawing)
+        self.assertEqual(text, "Edge1, Edge4 and Edge2 do not fit; edge 99 does")
+
+    def test_errors_name_corners_by_their_edges(self):
+        drawing = self.identification.drawing
+        text = with_names("2 edges meet at vertex 1", drawing)
+        self.assertEqual(text, "2 edges meet at the corner of Edge1, Edge2, Edge4")
+        text = with_names("the depth of vertices [0, 1, 2] is open", drawing)
+        self.assertEqual(text, "the depth of corners of Edge1, Edge2, Edge3, Edge4 is open")
+        self.assertEqual(with_names("vertex 77", drawing), "vertex 77")
 
     def test_a_fault_of_the_drawing_is_said_before_its_consequences(self):
         drawing = self.identification.drawing
