@@ -11,7 +11,7 @@ need_packages "${BUILD_PACKAGES[@]}" fonts-dejavu-core
 need_cargo
 
 step "Building (release)"
-cargo build --release --workspace
+cargo build --release -p faceformer-cli -p faceformer-capi
 target=$(target_dir)
 
 # The workbench looks for the library here, see its _native.py.

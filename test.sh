@@ -53,7 +53,7 @@ fi
 cargo clippy --release --workspace --all-targets "${deny[@]}"
 
 step "Building"
-cargo build --release --workspace
+cargo build --release -p faceformer-cli -p faceformer-capi
 FACEFORMER_LIBRARY="$(target_dir)/release/libfaceformer_capi.so"
 export FACEFORMER_LIBRARY LANG=C.UTF-8 LC_ALL=C.UTF-8
 

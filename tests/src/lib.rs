@@ -1,7 +1,7 @@
 //! What the whole-path tests share: where things are, and building what they run.
 //!
-//! The tests run the programs of this workspace as a user does, so they need them built. Each
-//! [`build`] asks cargo, which does nothing if all is up to date; no test runs a stale program.
+//! The tests run the programs of this workspace as a user does, so they need them built. Cargo
+//! is asked each time, which does nothing if all is up to date; no test runs a stale program.
 
 use std::ffi::OsStr;
 use std::io::Write;
@@ -27,11 +27,10 @@ pub fn profile_dir() -> PathBuf {
         .to_path_buf()
 }
 
-/// Builds a package of this workspace with the profile of the running test.
-///
-/// # Panics
-/// If the build fails, with the compiler's messages.
-pub fn build(package: &str) {
+/// Builds the program and the library with the profile of the running test. Both at once, because
+/// cargo chooses the features of dependencies for what it builds together: so `setup.sh` does too,
+/// and nothing is compiled twice.
+fn build() {
     let dir = profile_dir();
     let profile = match dir.file_name().and_then(|name| name.to_str()) {
         None | Some("debug") => "dev",
@@ -42,13 +41,12 @@ pub fn build(package: &str) {
         .parent()
         .expect("the profile's folder lies in the target folder");
     let output = Command::new(cargo)
+        .args(["build", "--quiet", "--profile", profile])
         .args([
-            "build",
-            "--quiet",
             "--package",
-            package,
-            "--profile",
-            profile,
+            "faceformer-cli",
+            "--package",
+            "faceformer-capi",
         ])
         .arg("--target-dir")
         .arg(target)
@@ -57,21 +55,27 @@ pub fn build(package: &str) {
         .expect("cargo can be started");
     assert!(
         output.status.success(),
-        "building {package} failed:\n{}",
+        "building failed:\n{}",
         String::from_utf8_lossy(&output.stderr)
     );
 }
 
 /// The program `faceformer`, built.
+///
+/// # Panics
+/// If the build fails, with the compiler's messages.
 pub fn program() -> PathBuf {
-    build("faceformer-cli");
+    build();
     let name = format!("faceformer{}", std::env::consts::EXE_SUFFIX);
     profile_dir().join(name)
 }
 
 /// The shared library of the C ABI, built.
+///
+/// # Panics
+/// If the build fails, with the compiler's messages.
 pub fn library() -> PathBuf {
-    build("faceformer-capi");
+    build();
     let name = format!(
         "{}faceformer_capi{}",
         std::env::consts::DLL_PREFIX,
