@@ -31,7 +31,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
     match errors.next() {
         None => Ok(()),
         Some(first) => Err(Failure::Unusable {
-            name: args.drawing.clone(),
+            name: source::shown(&args.drawing).to_owned(),
             first: first.message.clone(),
             further: errors.count(),
         }),
@@ -55,11 +55,14 @@ fn as_text(clean: &CleanDrawing) -> String {
         Projection::Orthographic => "orthographic",
         Projection::Perspective { .. } => "perspective",
     };
+    let parts = match graph.component_count() {
+        1 => "1 connected part".to_owned(),
+        n => format!("{n} connected parts"),
+    };
     let mut text = format!(
-        "{} edges ({curved} curved), {} vertices, {} connected part(s), {projection}\n",
+        "{} edges ({curved} curved), {} vertices, {parts}, {projection}\n",
         graph.edge_count(),
         graph.vertex_count(),
-        graph.component_count(),
     );
     for finding in &clean.report.findings {
         let severity = match finding.severity {

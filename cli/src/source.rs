@@ -14,10 +14,11 @@ const TEXT_LIMIT: u64 = 1 << 30;
 /// Reads the drawing that `DRAWING` on the command line names.
 ///
 /// # Errors
-/// [`Failure::Read`] if there is no such file, [`Failure::Drawing`] if it is no drawing.
+/// [`Failure::Read`] if there is no such file, [`Failure::Drawing`] if it is no drawing,
+/// [`Failure::Usage`] if it is a data set.
 pub(crate) fn load(name: &str) -> Result<CleanDrawing, Failure> {
     let fail = |source| Failure::Drawing {
-        name: name.to_owned(),
+        name: shown(name).to_owned(),
         source,
     };
     if let Some((path, id)) = split_data_set(name) {
@@ -31,7 +32,17 @@ pub(crate) fn load(name: &str) -> Result<CleanDrawing, Failure> {
             drawing,
         });
     }
+    if is_data_set(name) {
+        return Err(Failure::Usage(format!(
+            "{name} is a data set: name one of its drawings, as in {name}#ID"
+        )));
+    }
     read(&text(name)?, &Limits::default()).map_err(fail)
+}
+
+/// What messages call an input.
+pub(crate) fn shown(name: &str) -> &str {
+    if name == "-" { "standard input" } else { name }
 }
 
 /// Reads a whole text file, or standard input for `-`.
@@ -40,7 +51,7 @@ pub(crate) fn load(name: &str) -> Result<CleanDrawing, Failure> {
 /// [`Failure::Read`] if it cannot be read, is too large, or is no UTF-8.
 pub(crate) fn text(name: &str) -> Result<String, Failure> {
     let fail = |source| Failure::Read {
-        path: PathBuf::from(name),
+        path: PathBuf::from(shown(name)),
         source,
     };
     let read = |reader: &mut dyn Read| {
@@ -62,8 +73,12 @@ pub(crate) fn text(name: &str) -> Result<String, Failure> {
 fn split_data_set(name: &str) -> Option<(&Path, &str)> {
     name.match_indices('#').find_map(|(at, _)| {
         let (path, id) = (&name[..at], &name[at + 1..]);
-        (path.ends_with(".jsonl") || path.ends_with(".jsonl.zst")).then(|| (Path::new(path), id))
+        is_data_set(path).then(|| (Path::new(path), id))
     })
+}
+
+fn is_data_set(path: &str) -> bool {
+    path.ends_with(".jsonl") || path.ends_with(".jsonl.zst")
 }
 
 #[cfg(test)]

@@ -70,7 +70,7 @@ pub(crate) fn usable(name: &str) -> Result<Drawing, Failure> {
         .partition(|f| f.severity == Severity::Error);
     if let Some((first, further)) = errors.split_first() {
         return Err(Failure::Unusable {
-            name: name.to_owned(),
+            name: source::shown(name).to_owned(),
             first: first.message.clone(),
             further: further.len(),
         });

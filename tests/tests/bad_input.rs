@@ -112,6 +112,7 @@ fn unknown_names_are_usage_errors() {
         (&["dance"], "dance"),
         (&["identify", "no-such-file.json"], "no-such-file.json"),
         (&["identify", &nobody], "nobody"),
+        (&["identify", data], "#ID"),
         (&["identify", &block, "--engine", "magic"], "magic"),
         (&["eval", "no-such-file.jsonl"], "no-such-file.jsonl"),
         (&["eval", data, "--shapes", "cubes"], "cubes"),

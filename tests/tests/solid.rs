@@ -183,6 +183,73 @@ fn what_cannot_be_lifted_fails_with_status_1_and_leaves_nothing() {
 }
 
 #[test]
+fn the_faces_of_a_solid_that_cannot_be_built_can_be_kept() {
+    let dir = output_dir("solid-partial");
+    let [drawing, faces] = ["drawing.json", "faces.json"].map(|name| dir.join(name));
+    let (content, list) = crossed_prism();
+    std::fs::write(&drawing, content.to_string()).unwrap();
+    std::fs::write(&faces, list.to_string()).unwrap();
+    let (step, partial) = (dir.join("out.step"), dir.join("partial.brep"));
+    let arguments = [
+        "solid",
+        text(&drawing),
+        "--faces",
+        text(&faces),
+        "-o",
+        text(&step),
+    ];
+    let run = faceformer(arguments);
+    assert_eq!(run.status, 1, "{}", run.stderr);
+    assert!(run.stderr.contains("cannot be built"), "{}", run.stderr);
+    let run = faceformer([&arguments[..], &["--keep-partial", text(&partial)]].concat());
+    assert_eq!(run.status, 1, "{}", run.stderr);
+    let shell = std::fs::read_to_string(&partial).unwrap();
+    assert!(shell.contains("CASCADE Topology V1"));
+    assert!(!step.exists());
+    assert_eq!(std::fs::read_dir(&dir).unwrap().count(), 3);
+}
+
+/// A drawing and faces of a prism whose base crosses itself: every face is plane and every edge
+/// has two faces, but no solid has this boundary.
+fn crossed_prism() -> (Value, Value) {
+    let base = [(0, 0), (3, 0), (3, 2), (1, 2), (1, -1), (0, -1)];
+    let n = base.len();
+    let seen = |z: f64| {
+        base.map(|(x, y)| {
+            let (x, y) = (f64::from(x), f64::from(y));
+            [0.82 * x - 0.57 * y, 0.24 * x + 0.35 * y + 0.91 * z]
+        })
+    };
+    let vertices = [seen(0.0), seen(1.5)].concat();
+    let next = |i: usize| (i + 1) % n;
+    let bottom = (0..n).map(|i| [i, next(i)]);
+    let top = (0..n).map(|i| [n + i, n + next(i)]);
+    let upright = (0..n).map(|i| [i, n + i]);
+    let edges: Vec<Value> = bottom
+        .chain(top)
+        .chain(upright)
+        .map(|[a, b]| serde_json::json!({ "v": [a, b], "points": [vertices[a], vertices[b]] }))
+        .collect();
+    let number = |i: usize| i64::try_from(i + 1).unwrap();
+    let mut loops: Vec<Vec<i64>> = (0..n)
+        .map(|i| {
+            let (b, t, u) = (number(i), number(n + i), number(2 * n + i));
+            vec![b, number(2 * n + next(i)), -t, -u]
+        })
+        .collect();
+    loops.push((0..n).rev().map(|i| -number(i)).collect());
+    loops.push((0..n).map(|i| number(n + i)).collect());
+    let faces: Vec<Value> = loops
+        .iter()
+        .map(|walk| serde_json::json!({ "type": "plane", "loops": [walk] }))
+        .collect();
+    (
+        serde_json::json!({ "vertices": vertices, "edges": edges }),
+        serde_json::json!({ "faces": faces }),
+    )
+}
+
+#[test]
 fn wrong_options_are_usage_errors() {
     let block = of_sample(BLOCK);
     let dir = output_dir("solid-usage");
