@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec3};
 
-use super::evidence::{CircleGroup, Evidence};
+use super::evidence::{CircleGroup, Evidence, Shown};
 use super::hypotheses::{Hypothesis, frames};
 use super::model_frame::USUAL;
 use super::refine::{Followers, refine};
@@ -27,9 +27,15 @@ const READINGS: usize = 4;
 /// Hypotheses that are refined, the most telling ones.
 const REFINED: usize = 24;
 
-/// What a vertex where edges of all three axes meet adds to a frame's score. Edges of one plane can
-/// pass for the three axes, but do not meet like that.
-const CORNER: f64 = 1.0;
+/// What a vertex adds to a frame's score if all its edges follow the frame.
+const CORNER: f64 = 0.7;
+
+/// What an arc that is a circle around an axis adds, and one that is certainly none takes away.
+const CIRCLE: f64 = 2.0;
+const STRAY_CIRCLE: f64 = 1.0;
+
+/// Standard error, radians, of a normal that is certain.
+const SURE: f64 = 1e-3;
 
 /// What an axis that is drawn vertically adds: people keep a part's upright edges upright.
 const UPRIGHT: f64 = 1.0;
@@ -151,17 +157,57 @@ fn readings(evidence: &Evidence) -> Vec<Reading> {
     all
 }
 
-/// How much of the evidence follows a frame.
+/// How much of the evidence follows a frame, less what contradicts it.
 fn explained(evidence: &Evidence, followers: &Followers) -> f64 {
     let clusters = evidence.clusters.iter().zip(&followers.clusters);
     let circles = evidence.circles.iter().zip(&followers.circles);
-    clusters
+    let straight: f64 = clusters
         .filter_map(|(c, i)| Some(evidence.salience(c) * USUAL[(*i)?].weight))
-        .sum::<f64>()
-        + circles
-            .filter(|(_, k)| k.is_some())
-            .map(|(g, _)| g.edges.len() as f64)
-            .sum::<f64>()
+        .sum();
+    let round: f64 = circles.map(|(g, k)| roundness(g, k.is_some())).sum();
+    straight + round
+}
+
+/// What a group of circles adds to or takes from a frame's score.
+fn roundness(group: &CircleGroup, explained: bool) -> f64 {
+    let count = group.edges.len() as f64;
+    match explained {
+        true => CIRCLE * count,
+        false if group.error < SURE => -STRAY_CIRCLE * count,
+        false => 0.0,
+    }
+}
+
+/// Vertices whose every edge follows the frame and which are no plane figure, by the weight of
+/// their least usual edge. Edges of one plane can pass for the three axes, but do not meet so.
+fn corners(evidence: &Evidence, followers: &Followers) -> f64 {
+    let corner = |edges: &Vec<Shown>| {
+        let mut weight: f64 = 1.0;
+        let mut directions = Vec::with_capacity(edges.len());
+        let mut round = false;
+        for edge in edges {
+            match *edge {
+                Shown::Straight(c) => {
+                    let usual = USUAL[followers.clusters[c]?];
+                    weight = weight.min(usual.weight);
+                    directions.push(usual.direction);
+                }
+                Shown::Circle(g) => {
+                    followers.circles[g]?;
+                    round = true;
+                }
+                Shown::Other => return None,
+            }
+        }
+        let solid = directions.iter().enumerate().any(|(i, a)| {
+            let normal = directions[i + 1..].iter().map(|b| a.cross(*b));
+            normal
+                .into_iter()
+                .any(|n| directions.iter().any(|c| n.dot(*c).abs() > 0.1))
+        });
+        (edges.len() > 2 && (round || solid)).then_some(weight)
+    };
+    evidence.corners.iter().filter_map(corner).sum()
 }
 
 fn frame_reading(
@@ -205,7 +251,7 @@ fn frame_reading(
     });
     Some(Reading {
         score: explained(evidence, followers)
-            + CORNER * evidence.corners(&axes) as f64
+            + CORNER * corners(evidence, followers)
             + if upright { UPRIGHT } else { 0.0 },
         directions: Directions {
             axes: axes.into(),
@@ -232,7 +278,13 @@ fn axis_reading(evidence: &Evidence, group: &CircleGroup) -> Option<Reading> {
         _ => normal,
     };
     let edges: Vec<usize> = along.map_or_else(Vec::new, |c| evidence.edges_of(c).collect());
-    let score = group.edges.len() as f64 + along.map_or(0.0, |c| evidence.salience(c));
+    let others = evidence
+        .circles
+        .iter()
+        .filter(|other| !std::ptr::eq(*other, group));
+    let score = roundness(group, true)
+        + others.map(|g| roundness(g, false)).sum::<f64>()
+        + along.map_or(0.0, |c| evidence.salience(c));
     let votes = (2 * group.edges.len() + edges.len()) as f64 - 2.0;
     Some(Reading {
         directions: Directions {

@@ -2,7 +2,6 @@
 
 use glam::{DVec2, DVec3};
 
-use super::Axis;
 use crate::drawing::{Curve2, Drawing, EllipseArc};
 
 /// Standard errors within which a measurement agrees with a prediction.
@@ -59,22 +58,28 @@ pub(crate) struct Evidence {
     pub(crate) clusters: Vec<Cluster>,
     /// Circles, the ones with most edges first.
     pub(crate) circles: Vec<CircleGroup>,
-    /// Vertices of every edge.
-    ends: Vec<[usize; 2]>,
+    /// What the edges at each vertex show.
+    pub(super) corners: Vec<Vec<Shown>>,
 }
 
 impl Evidence {
     pub(crate) fn new(drawing: &Drawing, precision: f64) -> Self {
         let segments = segments(drawing, precision);
         let clusters = cluster(&segments, precision);
-        Self {
+        let mut evidence = Self {
             precision,
             size: drawing.size(),
             clusters,
             segments,
             circles: circles(drawing, precision),
-            ends: drawing.edges.iter().map(|e| e.v).collect(),
+            corners: vec![Vec::new(); drawing.vertices.len()],
+        };
+        for (e, shown) in evidence.shown(drawing.edges.len()).into_iter().enumerate() {
+            for v in drawing.edges[e].v {
+                evidence.corners[v].push(shown);
+            }
         }
+        evidence
     }
 }
 
@@ -92,21 +97,28 @@ impl Evidence {
         members.map(|s| (s.length / self.size).sqrt()).sum()
     }
 
-    /// Number of vertices where edges along all of the axes meet.
-    pub(super) fn corners(&self, axes: &[Axis; 3]) -> usize {
-        let mut met = vec![0u8; self.ends.iter().flatten().max().map_or(0, |v| v + 1)];
-        for (k, axis) in axes.iter().enumerate() {
-            for v in axis
-                .edges
-                .iter()
-                .filter_map(|&e| self.ends.get(e))
-                .flatten()
-            {
-                met[*v] |= 1 << k;
-            }
+    /// Cluster of each straight edge and group of each circle, by edge.
+    fn shown(&self, edges: usize) -> Vec<Shown> {
+        let mut shown = vec![Shown::Other; edges];
+        for (i, c) in self.clusters.iter().enumerate() {
+            self.edges_of(c).for_each(|e| shown[e] = Shown::Straight(i));
         }
-        met.iter().filter(|m| **m == 0b111).count()
+        for (i, g) in self.circles.iter().enumerate() {
+            g.edges.iter().for_each(|&e| shown[e] = Shown::Circle(i));
+        }
+        shown
     }
+}
+
+/// What an edge shows of directions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Shown {
+    /// A straight edge of a cluster.
+    Straight(usize),
+    /// A circle of a group.
+    Circle(usize),
+    /// Nothing.
+    Other,
 }
 
 impl Cluster {
