@@ -4,7 +4,8 @@
 use glam::DVec2;
 
 use super::directions::AGREE;
-use super::rows::{Tag, Unknowns, coaxial};
+use super::revolved;
+use super::rows::{Tag, Unknowns};
 use super::sheet::Sheet;
 use super::system::System;
 use crate::drawing::{Curve2, SurfaceKind};
@@ -13,7 +14,14 @@ use crate::drawing::{Curve2, SurfaceKind};
 pub(super) type Level = fn(&Sheet<'_>, &Unknowns, &mut System<Tag>);
 
 /// The sets, surest first.
-pub(super) const LEVELS: [Level; 5] = [parallel, prisms, generators, frustums, loose_coaxial];
+pub(super) const LEVELS: [Level; 6] = [
+    parallel,
+    prisms,
+    revolved::on_one_axis,
+    revolved::on_cylinder,
+    generators,
+    frustums,
+];
 
 /// Edges that are drawn parallel are parallel: their rises are as their drawn lengths.
 fn parallel(sheet: &Sheet<'_>, _: &Unknowns, system: &mut System<Tag>) {
@@ -128,10 +136,13 @@ fn generators(sheet: &Sheet<'_>, unknowns: &Unknowns, system: &mut System<Tag>) 
                     let Some(end) = depth_at(sheet, unknowns, to, q) else {
                         continue;
                     };
-                    let terms = end.terms.iter().copied();
-                    let terms = terms.chain(start.terms.iter().map(|&(i, c)| (i, -c)));
                     let rise = (q - p).dot(drawn) * slope + start.shift - end.shift;
-                    system.push(terms, rise, error.recip(), Tag::Generator { face });
+                    system.push(
+                        end.minus(&start),
+                        rise,
+                        error.recip(),
+                        Tag::Generator { face },
+                    );
                 }
             }
         }
@@ -139,9 +150,17 @@ fn generators(sheet: &Sheet<'_>, unknowns: &Unknowns, system: &mut System<Tag>) 
 }
 
 /// Depth as terms and a shift: `sum(terms) + shift`.
-struct Depth {
-    terms: Vec<(usize, f64)>,
-    shift: f64,
+pub(super) struct Depth {
+    pub(super) terms: Vec<(usize, f64)>,
+    pub(super) shift: f64,
+}
+
+impl Depth {
+    /// Terms of the difference of two depths, without the shifts.
+    pub(super) fn minus<'a>(&'a self, other: &'a Self) -> impl Iterator<Item = (usize, f64)> + 'a {
+        let negated = other.terms.iter().map(|&(i, c)| (i, -c));
+        self.terms.iter().copied().chain(negated)
+    }
 }
 
 /// Depth of a point of an edge: a vertex', or by the circle's or the neighbouring face's plane.
@@ -205,9 +224,4 @@ fn only_hit(sheet: &Sheet<'_>, edge: usize, p: DVec2, d: DVec2) -> Option<DVec2>
     });
     let first = hits.next()?;
     hits.next().is_none().then_some(first)
-}
-
-/// Surfaces that were not told apart may be of revolution too.
-fn loose_coaxial(sheet: &Sheet<'_>, _: &Unknowns, system: &mut System<Tag>) {
-    coaxial(sheet, system, |kind| kind == SurfaceKind::Other);
 }

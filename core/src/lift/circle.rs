@@ -11,6 +11,9 @@ pub(crate) struct DrawnCircle {
     pub(crate) radius: f64,
     /// Largest distance of the points from it, in its own plane.
     pub(crate) residual: f64,
+    /// Error of its centre in its own plane, for a unit error of the points: about 1 for half a
+    /// circle, large for a short arc.
+    pub(crate) gain: f64,
 }
 
 /// Circle of unit normal `normal` whose drawing passes through the points.
@@ -30,8 +33,7 @@ pub(crate) fn circle_through(points: &[DVec2], normal: DVec3) -> Option<DrawnCir
         let d = p - middle;
         DVec2::new(d.dot(across), d.dot(along) / flat)
     };
-    let fit = circle_fit(points.iter().map(|&p| unfold(p)))?;
-    let (center, radius) = fit;
+    let (center, radius, gain) = circle_fit(points.iter().map(|&p| unfold(p)))?;
     let residual = points
         .iter()
         .map(|&p| (unfold(p).distance(center) - radius).abs())
@@ -40,11 +42,13 @@ pub(crate) fn circle_through(points: &[DVec2], normal: DVec3) -> Option<DrawnCir
         center: middle + across * center.x + along * (center.y * flat),
         radius,
         residual,
+        gain,
     })
 }
 
-/// Centre and radius of the circle with the least sum of `(|p - c|^2 - r^2)^2` (Kasa 1976).
-pub(crate) fn circle_fit(points: impl Iterator<Item = DVec2> + Clone) -> Option<(DVec2, f64)> {
+/// Centre, radius and gain (see [`DrawnCircle::gain`]) of the circle with the least sum of
+/// `(|p - c|^2 - r^2)^2` (Kasa 1976).
+pub(crate) fn circle_fit(points: impl Iterator<Item = DVec2> + Clone) -> Option<(DVec2, f64, f64)> {
     let count = points.clone().count() as f64;
     let middle = points.clone().sum::<DVec2>() / count;
     let (mut xx, mut xy, mut yy, mut xs, mut ys, mut s2) = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
@@ -65,7 +69,12 @@ pub(crate) fn circle_fit(points: impl Iterator<Item = DVec2> + Clone) -> Option<
     }
     let center = DVec2::new(xs * yy - ys * xy, ys * xx - xs * xy) / (2.0 * determinant);
     let radius = (center.length_squared() + s2 / count).sqrt();
-    radius.is_finite().then_some((middle + center, radius))
+    // An error e of a point is one of 2 r e in the equation that is linear in the centre.
+    let smallest = (xx + yy) / 2.0 - ((xx - yy) / 2.0).hypot(xy);
+    let gain = radius / smallest.max(determinant / (xx + yy)).sqrt();
+    radius
+        .is_finite()
+        .then_some((middle + center, radius, gain))
 }
 
 #[cfg(test)]

@@ -13,6 +13,7 @@ mod error;
 mod metric;
 mod model;
 mod posture;
+mod revolved;
 mod rows;
 mod sheet;
 mod solve;

@@ -5,7 +5,6 @@
 
 use super::sheet::Sheet;
 use super::system::System;
-use crate::drawing::SurfaceKind;
 
 /// What a row stands for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -20,8 +19,8 @@ pub(super) enum Tag {
     Disc { face: usize },
     /// The two ends of an arc lie in the plane of its circle.
     Chord { edge: usize },
-    /// Two circles of a surface of revolution have their centres on one axis.
-    Coaxial { face: usize },
+    /// Points of a surface of revolution lie on its axis, or at a known distance from it.
+    Revolved { face: usize },
     /// An edge is parallel to the longest one that is drawn parallel.
     Parallel { edge: usize },
     /// A planar face is the end of a right prism.
@@ -76,12 +75,6 @@ pub(super) fn certain(sheet: &Sheet<'_>, unknowns: &Unknowns) -> System<Tag> {
     alignment(sheet, unknowns, &mut system);
     discs(sheet, unknowns, &mut system);
     chords(sheet, &mut system);
-    coaxial(sheet, &mut system, |kind| {
-        matches!(
-            kind,
-            SurfaceKind::Cylinder | SurfaceKind::Cone | SurfaceKind::Sphere | SurfaceKind::Torus
-        )
-    });
     system
 }
 
@@ -175,52 +168,6 @@ fn chords(sheet: &Sheet<'_>, system: &mut System<Tag>) {
                 -d.dot(n.truncate()) / n.z,
                 error.recip(),
                 Tag::Chord { edge },
-            );
-        }
-    }
-}
-
-/// Centres of a surface's circles are on its axis. A centre's depth follows from a vertex of the
-/// circle, because the circle's plane is normal to the axis.
-pub(super) fn coaxial(
-    sheet: &Sheet<'_>,
-    system: &mut System<Tag>,
-    is_revolved: impl Fn(SurfaceKind) -> bool,
-) {
-    for (face, f) in sheet.faces.iter().enumerate() {
-        if !is_revolved(f.kind) {
-            continue;
-        }
-        let circles: Vec<_> = sheet
-            .edges_of(face)
-            .iter()
-            .filter_map(|&e| sheet.circles[e].map(|c| (e, c.0, c.1)))
-            .collect();
-        for (i, (first, k, a)) in circles.iter().enumerate() {
-            // One link to an earlier circle is enough.
-            let link = circles[i + 1..].iter().find(|(_, j, b)| {
-                let (n, apart) = (sheet.axis(*k), b.center - a.center);
-                let off = apart.perp_dot(n.truncate().normalize_or_zero()).abs();
-                j == k && off < 1e-4 * sheet.size
-            });
-            let Some((second, _, b)) = link else { continue };
-            let n = sheet.axis(*k);
-            let drawn = n.truncate();
-            let rise = (b.center - a.center).dot(drawn) / drawn.length_squared() * n.z;
-            let (u, v) = (
-                sheet.drawing.edges[*first].v[0],
-                sheet.drawing.edges[*second].v[0],
-            );
-            let down = |vertex: usize, center: glam::DVec2| {
-                -(center - sheet.drawing.vertices[vertex]).dot(drawn) / n.z
-            };
-            let error = 4.0 * sheet.directions.precision / n.z.min(drawn.length())
-                + sheet.directions.error * (a.radius + b.radius + rise.abs()) / (n.z * n.z);
-            system.push(
-                [(v, 1.0), (u, -1.0)],
-                rise + down(u, a.center) - down(v, b.center),
-                error.recip(),
-                Tag::Coaxial { face },
             );
         }
     }

@@ -111,6 +111,11 @@ impl<'a> Sheet<'a> {
         &self.faces_of[edge]
     }
 
+    /// Edges at a vertex.
+    pub(super) fn edges_at(&self, vertex: usize) -> &[usize] {
+        &self.edges_at[vertex]
+    }
+
     /// Vertices of a face with the straight edges that leave it there.
     pub(super) fn leaving(&self, face: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
         self.corners[face].iter().flat_map(move |&v| {

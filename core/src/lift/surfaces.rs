@@ -79,8 +79,8 @@ fn cylinder(sheet: &Sheet<'_>, solved: &Solved, face: usize) -> Option<Surface> 
         let p = vertex(sheet, solved, v);
         touching(&flat, DVec2::new(p.dot(u), p.dot(w)), side)
     });
-    let narrow = through.is_none_or(|(center, _)| arc_width(&flat, center) < NARROW);
-    let mut found: Vec<(DVec2, f64)> = through.into_iter().collect();
+    let narrow = through.is_none_or(|(center, _, _)| arc_width(&flat, center) < NARROW);
+    let mut found: Vec<(DVec2, f64)> = through.iter().map(|c| (c.0, c.1)).collect();
     if narrow {
         found.extend(by_outline);
     }

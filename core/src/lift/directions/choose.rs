@@ -236,13 +236,14 @@ fn frame_reading(
             votes += 2 * group.edges.len();
         }
     }
-    // Three constraints fix a frame. One without an edge or circle on some axis rests on angles
-    // only, and needs more to be believed: two directions at a known angle beside an axis.
+    // Three constraints fix a frame. One without an edge or circle on some axis needs more to be
+    // believed: two directions at a known angle beside an axis, or circles around two axes.
     let complete = axes
         .iter()
         .all(|a| !(a.edges.is_empty() && a.circles.is_empty()));
     let slanted = followers.clusters.iter().flatten().any(|&i| i > 2);
-    if constraints < 3 || !(complete || constraints > 3 && slanted) {
+    let around_two = axes.iter().filter(|a| !a.circles.is_empty()).count() > 1;
+    if constraints < 3 || !(complete || constraints > 3 && (slanted || around_two)) {
         return None;
     }
     let upright = axes.iter().any(|a| {

@@ -1,0 +1,303 @@
+//! Rows from surfaces of revolution: what lies on one axis, and what lies on one cylinder.
+//!
+//! They are among the assumed rows: a centre that is drawn on a circle's axis is taken to be there.
+
+use glam::{DVec2, DVec3};
+
+use super::assumed::Depth;
+use super::circle::{DrawnCircle, circle_through};
+use super::directions::AGREE;
+use super::rows::{Tag, Unknowns};
+use super::sheet::Sheet;
+use super::system::System;
+use crate::drawing::{Curve2, SurfaceKind};
+
+/// Ratio of the axes from which an ellipse is a sphere's outline.
+const OUTLINE: f64 = 1.0 - 1e-5;
+
+/// A point of an axis, and how well it is drawn.
+struct Center {
+    at: DVec2,
+    depth: Depth,
+    error: f64,
+}
+
+/// Faces of one surface: an outline splits it, so that each part may miss what fixes it.
+fn wholes(sheet: &Sheet<'_>) -> Vec<Vec<usize>> {
+    let mut part_of: Vec<usize> = (0..sheet.faces.len()).collect();
+    fn root(part_of: &[usize], mut f: usize) -> usize {
+        while part_of[f] != f {
+            f = part_of[f];
+        }
+        f
+    }
+    for edge in 0..sheet.drawing.edges.len() {
+        if let [a, b] = *sheet.neighbours(edge)
+            && sheet.faces[a].kind == sheet.faces[b].kind
+            && !sheet.is_planar(a)
+        {
+            let (a, b) = (root(&part_of, a), root(&part_of, b));
+            part_of[a.max(b)] = a.min(b);
+        }
+    }
+    let mut wholes: Vec<Vec<usize>> = vec![Vec::new(); sheet.faces.len()];
+    for f in (0..sheet.faces.len()).filter(|&f| !sheet.is_planar(f)) {
+        wholes[root(&part_of, f)].push(f);
+    }
+    wholes.retain(|w| !w.is_empty());
+    wholes
+}
+
+/// Centres, tips and rings of vertices of one surface of revolution lie on its axis.
+pub(super) fn on_one_axis(sheet: &Sheet<'_>, _: &Unknowns, system: &mut System<Tag>) {
+    for whole in wholes(sheet) {
+        let mut edges: Vec<usize> = whole
+            .iter()
+            .flat_map(|&f| sheet.edges_of(f))
+            .copied()
+            .collect();
+        edges.sort_unstable();
+        edges.dedup();
+        for k in 0..sheet.directions.axes.len() {
+            let mut centers = circles(sheet, &edges, k);
+            if centers.is_empty() {
+                continue;
+            }
+            centers.extend(tips(sheet, &edges));
+            centers.extend(outlines(sheet, whole[0], &edges));
+            centers.extend(ring(sheet, &edges, k, whole[0], system));
+            link(sheet, &centers, k, whole[0], system);
+        }
+        bends(sheet, &edges, whole[0], system);
+    }
+}
+
+fn center_of(sheet: &Sheet<'_>, vertex: usize, k: usize, circle: &DrawnCircle) -> Center {
+    let n = sheet.axis(k);
+    let d = circle.center - sheet.drawing.vertices[vertex];
+    Center {
+        at: circle.center,
+        depth: Depth {
+            terms: vec![(vertex, 1.0)],
+            shift: -d.dot(n.truncate()) / n.z,
+        },
+        error: (sheet.directions.precision * circle.gain + sheet.directions.error * circle.radius)
+            / (n.z * n.z),
+    }
+}
+
+fn circles(sheet: &Sheet<'_>, edges: &[usize], k: usize) -> Vec<Center> {
+    let around = edges.iter().filter_map(|&e| {
+        let (axis, circle) = sheet.circles[e].as_ref()?;
+        (*axis == k).then(|| center_of(sheet, sheet.drawing.edges[e].v[0], k, circle))
+    });
+    around.collect()
+}
+
+/// Vertices where straight edges of the surface itself meet: tips of cones.
+fn tips(sheet: &Sheet<'_>, edges: &[usize]) -> Vec<Center> {
+    let own = |&e: &&usize| {
+        sheet.is_straight(*e) && sheet.neighbours(*e).iter().all(|&f| !sheet.is_planar(f))
+    };
+    let ends = edges
+        .iter()
+        .filter(own)
+        .flat_map(|&e| sheet.drawing.edges[e].v);
+    let mut ends: Vec<usize> = ends.collect();
+    ends.sort_unstable();
+    let mut met: Vec<usize> = ends
+        .windows(2)
+        .filter(|w| w[0] == w[1])
+        .map(|w| w[0])
+        .collect();
+    met.dedup();
+    let tip = |v: usize| Center {
+        at: sheet.drawing.vertices[v],
+        depth: Depth {
+            terms: vec![(v, 1.0)],
+            shift: 0.0,
+        },
+        error: sheet.directions.precision,
+    };
+    met.into_iter().map(tip).collect()
+}
+
+/// The outline of a sphere is a circle around its centre, at its centre's depth.
+fn outlines(sheet: &Sheet<'_>, face: usize, edges: &[usize]) -> Vec<Center> {
+    let is_sphere = matches!(
+        sheet.faces[face].kind,
+        SurfaceKind::Sphere | SurfaceKind::Other
+    );
+    let outline = |&e: &usize| match sheet.drawing.edges[e].curve {
+        Curve2::Ellipse(arc) if is_sphere && arc.ratio > OUTLINE && arc.uncertainty < 1e-3 => {
+            let v = sheet.drawing.edges[e].v[0];
+            Some(Center {
+                at: arc.center,
+                depth: Depth {
+                    terms: vec![(v, 1.0)],
+                    shift: 0.0,
+                },
+                error: sheet.directions.precision + arc.uncertainty * arc.major.length(),
+            })
+        }
+        _ => None,
+    };
+    edges.iter().filter_map(outline).collect()
+}
+
+/// Ends of edges along the axis, where walls of a prism are cut by the surface: if they are drawn
+/// on one circle around the axis, they are at one height.
+fn ring(
+    sheet: &Sheet<'_>,
+    edges: &[usize],
+    k: usize,
+    face: usize,
+    system: &mut System<Tag>,
+) -> Option<Center> {
+    let open = |&&e: &&usize| !sheet.is_straight(e) && sheet.circles[e].is_none();
+    let ends = edges
+        .iter()
+        .filter(open)
+        .flat_map(|&e| sheet.drawing.edges[e].v);
+    let mut ends: Vec<usize> = ends
+        .filter(|&v| {
+            sheet
+                .edges_at(v)
+                .iter()
+                .any(|&e| sheet.edge_axis[e] == Some(k))
+        })
+        .collect();
+    ends.sort_unstable();
+    ends.dedup();
+    let n = sheet.axis(k);
+    let points: Vec<DVec2> = ends.iter().map(|&v| sheet.drawing.vertices[v]).collect();
+    let circle = circle_through(&points, n)?;
+    let error = (sheet.directions.precision + sheet.directions.error * circle.radius) / (n.z * n.z);
+    if ends.len() < 4 || circle.residual > 3.0 * AGREE * error {
+        return None;
+    }
+    let first = ends[0];
+    for (&v, p) in ends.iter().zip(&points).skip(1) {
+        let rise = -(*p - points[0]).dot(n.truncate()) / n.z;
+        let weight = (2.0 * error).recip();
+        system.push(
+            [(v, 1.0), (first, -1.0)],
+            rise,
+            weight,
+            Tag::Revolved { face },
+        );
+    }
+    Some(center_of(sheet, first, k, &circle))
+}
+
+/// Rows between each centre and the first one that is drawn on the same axis.
+fn link(sheet: &Sheet<'_>, centers: &[Center], k: usize, face: usize, system: &mut System<Tag>) {
+    let axis = sheet.axis(k);
+    let drawn = axis.truncate();
+    let length = drawn.length();
+    let Some((first, others)) = centers.split_first() else {
+        return;
+    };
+    for other in others {
+        let apart = other.at - first.at;
+        let error = first.error + other.error;
+        let off = apart.perp_dot(drawn).abs() / length;
+        if off < AGREE * error + sheet.directions.error * apart.length() / length {
+            let rise = apart.dot(drawn) / (length * length) * axis.z;
+            let error =
+                2.0 * error / length + sheet.directions.error * apart.length() / (length * length);
+            system.push(
+                other.depth.minus(&first.depth),
+                rise - other.depth.shift + first.depth.shift,
+                error.recip(),
+                Tag::Revolved { face },
+            );
+        }
+    }
+}
+
+/// A pipe's bend by a right angle: the centre of its one end is as far along the one axis as along
+/// the other from the centre of its other end, which the drawing shows.
+fn bends(sheet: &Sheet<'_>, edges: &[usize], face: usize, system: &mut System<Tag>) {
+    let count = sheet.directions.axes.len();
+    for i in 0..count {
+        for j in i + 1..count {
+            let (from, to) = (circles(sheet, edges, i), circles(sheet, edges, j));
+            let (Some(from), Some(to)) = (from.first(), to.first()) else {
+                continue;
+            };
+            let (a, b) = (sheet.axis(i), sheet.axis(j));
+            let det = a.truncate().perp_dot(b.truncate());
+            let apart = to.at - from.at;
+            let along =
+                DVec2::new(apart.perp_dot(b.truncate()), a.truncate().perp_dot(apart)) / det;
+            let error =
+                (from.error + to.error + sheet.directions.error * apart.length()) / det.abs();
+            let even = (along.x.abs() - along.y.abs()).abs() < AGREE * error;
+            if even && along.x.abs() > 20.0 * error {
+                system.push(
+                    to.depth.minus(&from.depth),
+                    along.x * a.z + along.y * b.z - to.depth.shift + from.depth.shift,
+                    (2.0 * error).recip(),
+                    Tag::Revolved { face },
+                );
+            }
+        }
+    }
+}
+
+/// A vertex on a cylinder with a known circle lies at one of two depths, in front of the axis or
+/// behind it, as all of the face does.
+///
+/// With n the axis, e its drawn direction, s and d a point's drawn distances from the centre along e
+/// and across it: `|n_xy| z = n_z s +- sqrt(r^2 - d^2)` above the centre's depth.
+pub(super) fn on_cylinder(sheet: &Sheet<'_>, _: &Unknowns, system: &mut System<Tag>) {
+    for (face, f) in sheet.faces.iter().enumerate() {
+        if f.kind != SurfaceKind::Cylinder {
+            continue;
+        }
+        let known = sheet.edges_of(face).iter().find_map(|&e| {
+            let (k, circle) = sheet.circles[e].as_ref()?;
+            let middle = sheet.drawing.edges[e]
+                .points
+                .get(sheet.drawing.edges[e].points.len() / 2)?;
+            Some((e, *k, *circle, *middle))
+        });
+        let Some((edge, k, circle, middle)) = known else {
+            continue;
+        };
+        let n = sheet.axis(k);
+        let (slant, r) = (n.truncate().length(), circle.radius);
+        let along = n.truncate() / slant;
+        let center = center_of(sheet, sheet.drawing.edges[edge].v[0], k, &circle);
+        // Above or below the plane through the axis that the outlines lie in.
+        let lift = |p: DVec2, z: f64| {
+            DVec3::new(-n.z * along.x, -n.z * along.y, slant).dot((p - center.at).extend(z))
+        };
+        let rise = -(middle - center.at).dot(n.truncate()) / n.z;
+        let side = lift(middle, rise).signum();
+        for &v in &sheet.corners[face] {
+            let d = sheet.drawing.vertices[v] - center.at;
+            let across = along.perp_dot(d);
+            let half = (r * r - across * across).sqrt();
+            // Near the outline the depth is poorly known.
+            if half.is_nan() || half < 0.1 * r {
+                continue;
+            }
+            let z = (n.z * d.dot(along) + side * half) / slant;
+            let error = (center.error + 2.0 * sheet.directions.precision) * r / half / slant
+                + sheet.directions.error * d.length() / (slant * slant);
+            let own = Depth {
+                terms: vec![(v, 1.0)],
+                shift: 0.0,
+            };
+            let weight = (2.0 * error).recip();
+            system.push(
+                own.minus(&center.depth),
+                z + center.depth.shift,
+                weight,
+                Tag::Revolved { face },
+            );
+        }
+    }
+}
