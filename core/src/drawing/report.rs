@@ -44,6 +44,8 @@ pub enum FindingKind {
     HighDegree,
     /// Two edges lie on each other along a stretch.
     Overlap,
+    /// The file's faces have no surface types.
+    NoFaceTypes,
 }
 
 /// One thing that clean-up did or diagnosis found.
@@ -62,6 +64,17 @@ pub struct Finding {
     pub vertices: Vec<usize>,
     /// Where it is, in drawing units.
     pub points: Vec<DVec2>,
+}
+
+impl Finding {
+    /// The same finding about input edges instead of the drawing's.
+    pub(super) fn about_sources(mut self, sources: &[Vec<usize>]) -> Self {
+        let edges = self.edges.iter().flat_map(|&e| &sources[e]);
+        self.edges = edges.copied().collect();
+        self.edges.sort_unstable();
+        self.edges.dedup();
+        self
+    }
 }
 
 /// All findings about one input.

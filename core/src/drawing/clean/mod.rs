@@ -120,12 +120,8 @@ pub(super) fn clean_raw(
     let sources: Vec<Vec<usize>> = net.pieces.into_iter().map(|p| p.sources).collect();
     let mut findings = net.findings;
     let names: Vec<String> = sources.iter().map(|s| names(&labels, s)).collect();
-    for mut finding in diagnose::findings(&drawing, &names) {
-        let edges = finding.edges.iter().flat_map(|&e| &sources[e]);
-        finding.edges = edges.copied().collect();
-        finding.edges.sort_unstable();
-        finding.edges.dedup();
-        findings.push(finding);
+    for finding in diagnose::findings(&drawing, &names) {
+        findings.push(finding.about_sources(&sources));
     }
     Ok(CleanDrawing {
         drawing,
@@ -135,6 +131,32 @@ pub(super) fn clean_raw(
             tolerance: Some(reach),
         },
     })
+}
+
+/// Gives edges without vertices theirs, where their ends are within `reach` of each other; returns
+/// the places of the vertices.
+///
+/// # Errors
+/// [`DrawingError::ZeroLength`] naming an edge without points.
+pub(super) fn assign_vertices(edges: &mut [Edge], reach: f64) -> Result<Vec<DVec2>, DrawingError> {
+    if let Some(edge) = edges.iter().position(|e| e.points.len() < 2) {
+        return Err(DrawingError::ZeroLength { edge: edge + 1 });
+    }
+    let ends = edges.iter().map(|e| {
+        let ends = vec![e.points[0], e.points[e.points.len() - 1]];
+        Piece::new(ends, Curve2::Line, 0)
+    });
+    let mut net = Net {
+        labels: &[],
+        vertices: Vec::new(),
+        pieces: ends.collect(),
+        findings: Vec::new(),
+    };
+    snap::make_vertices(&mut net, reach);
+    for (e, piece) in edges.iter_mut().zip(&net.pieces) {
+        e.v = piece.v;
+    }
+    Ok(net.vertices)
 }
 
 impl Edge {

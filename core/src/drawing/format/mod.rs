@@ -5,6 +5,7 @@
 
 mod check;
 mod parse;
+mod release;
 mod write;
 
 use super::{CleanDrawing, CleanOptions, Drawing, DrawingError, Limits, Report, clean, diagnose};
@@ -13,6 +14,8 @@ pub(super) use parse::{Raw, RawEdge};
 /// Reads a drawing in any of the three forms.
 ///
 /// - Interchange format (has `vertices`): taken at its word, checked and not changed.
+/// - Released Faceformer JSON (has `pairings`): one polyline a co-edge; end points within 2e-4 of
+///   the size are one vertex, and the faces become the truth.
 /// - Plain edge list, `{"edges": [{"name": "Edge1", "points": [[x, y], ...]}]}` (an edge may also
 ///   be its bare list of points): goes through [`clean`] with the default options.
 ///
@@ -36,6 +39,9 @@ pub fn read(text: &str, limits: &Limits) -> Result<CleanDrawing, DrawingError> {
                 tolerance: None,
             },
         });
+    }
+    if raw.is_release() {
+        return release::read(raw, limits);
     }
     clean::clean_raw(raw, &CleanOptions::default(), limits)
 }

@@ -11,6 +11,7 @@ use glam::DVec2;
 use serde::de::{self, DeserializeSeed, Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
 
 use super::super::{DrawingError, Limits, Projection, Truth};
+use super::release::Release;
 
 /// An edge as a file lists it.
 #[derive(Debug, Default)]
@@ -29,9 +30,15 @@ pub(in super::super) struct Raw {
     pub(in super::super) vertices: Option<Vec<DVec2>>,
     pub(in super::super) edges: Vec<RawEdge>,
     pub(in super::super) truth: Option<Truth>,
+    pub(in super::super) release: Release,
 }
 
 impl Raw {
+    /// Whether the file is of the Faceformer release.
+    pub(super) fn is_release(&self) -> bool {
+        self.release.pairings.is_some()
+    }
+
     /// What messages call the edges: their names, else their numbers from 1.
     pub(in super::super) fn labels(&self) -> Vec<String> {
         let label = |(i, e): (usize, &RawEdge)| match &e.name {
@@ -168,6 +175,23 @@ impl<'de> Visitor<'de> for DrawingSeed<'_, '_> {
                     state.place.set(Place::Truth);
                     let value = map.next_value()?;
                     once(&mut truth, value, "truth")?;
+                }
+                "pairings" => {
+                    let value = map.next_value()?;
+                    once(&mut raw.release.pairings, value, "pairings")?;
+                }
+                "faces_indices" => {
+                    state.place.set(Place::Truth);
+                    let value = map.next_value()?;
+                    once(&mut raw.release.faces, value, "faces_indices")?;
+                }
+                "edges3d" => {
+                    state.place.set(Place::Truth);
+                    raw.release.edges3d = map.next_value()?;
+                }
+                "dominant_directions" => {
+                    state.place.set(Place::Truth);
+                    raw.release.directions = map.next_value()?;
                 }
                 _ => {
                     map.next_value::<IgnoredAny>()?;
