@@ -12,6 +12,7 @@ pub mod directions;
 mod error;
 mod metric;
 mod model;
+mod pieces;
 mod posture;
 mod revolved;
 mod rows;
@@ -27,6 +28,7 @@ mod tests;
 pub use error::LiftError;
 pub use metric::depth_error;
 pub use model::{Conflict, Lift, LiftMethod, LiftOptions, Surface};
+pub(crate) use pieces::{Pieces, Tilt};
 
 use crate::drawing::Drawing;
 use crate::identify::Face;

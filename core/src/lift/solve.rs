@@ -33,6 +33,11 @@ impl Solved {
         self.active.iter().filter(|a| !**a).count()
     }
 
+    /// Whether the difference of two vertices' depths is determined.
+    pub(super) fn are_tied(&self, u: usize, v: usize) -> bool {
+        self.null_space.are_tied(u, v)
+    }
+
     pub(super) fn depth(&self, vertex: usize) -> f64 {
         self.x[vertex]
     }
@@ -60,7 +65,15 @@ impl Solved {
     }
 }
 
+/// Solves a reading whose depths must all be tied together.
 pub(super) fn solve(sheet: &Sheet<'_>) -> Result<Solved, LiftError> {
+    let solved = solve_open(sheet)?;
+    refuse_loose(&solved.unknowns, &solved.null_space)?;
+    Ok(solved)
+}
+
+/// Solves a reading, whatever its rows leave open.
+pub(super) fn solve_open(sheet: &Sheet<'_>) -> Result<Solved, LiftError> {
     let unknowns = Unknowns::new(sheet);
     let mut system = rows::certain(sheet, &unknowns);
     let mut null_space = system.null_space()?;
@@ -80,7 +93,6 @@ pub(super) fn solve(sheet: &Sheet<'_>) -> Result<Solved, LiftError> {
             null_space = system.null_space()?;
         }
     }
-    refuse_loose(&unknowns, &null_space)?;
     let base: Vec<f64> = system.rows().iter().map(|r| r.weight).collect();
     let mut active = vec![true; system.rows().len()];
     let mut x = settle(&mut system, &unknowns, &base, &active)?;
@@ -100,7 +112,6 @@ pub(super) fn solve(sheet: &Sheet<'_>) -> Result<Solved, LiftError> {
             x = settle(&mut system, &unknowns, &base, &active)?;
         }
         null_space = system.null_space_of(&active)?;
-        refuse_loose(&unknowns, &null_space)?;
     }
     Ok(Solved {
         unknowns,

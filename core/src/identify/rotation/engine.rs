@@ -4,7 +4,9 @@ use super::cuts::Cuts;
 use super::{Field, HandScorer, TripleScorer, Triples};
 use crate::drawing::{CoEdge, Drawing, Graph};
 use crate::identify::kinds::kind_of;
-use crate::identify::{Engine, EngineKind, Evidence, Face, Identification, IdentifyError};
+use crate::identify::{
+    Candidate, Engine, EngineKind, Evidence, Face, Identification, IdentifyError,
+};
 use crate::{Progress, Result, Stage};
 
 /// Most edges at one vertex that the engine handles.
@@ -56,7 +58,7 @@ impl Engine for RotationEngine {
             };
             walk.iter().map(at).fold(f64::INFINITY, f64::min)
         };
-        let faces = system
+        let faces: Vec<Face> = system
             .loops()
             .into_iter()
             .map(|walk| {
@@ -73,11 +75,24 @@ impl Engine for RotationEngine {
                 }
             })
             .collect();
+        progress.report(Stage::Identify, 0.7)?;
+        let mut candidates = super::group::group(drawing, &graph, &faces)
+            .into_iter()
+            .map(|grouping| Candidate {
+                faces: grouping
+                    .faces
+                    .iter()
+                    .map(|list| merged(&faces, list))
+                    .collect(),
+                score: grouping.score,
+            });
+        let best = candidates.next().map_or(faces.clone(), |c| c.faces);
+        let alternatives = candidates.collect();
         progress.report(Stage::Identify, 1.0)?;
         Ok(Identification {
             engine: self.name().to_owned(),
-            faces,
-            alternatives: Vec::new(),
+            faces: best,
+            alternatives,
             notices: Vec::new(),
         })
     }
@@ -108,4 +123,14 @@ fn check_degrees(graph: &Graph) -> Result<(), IdentifyError> {
         }
     }
     Ok(())
+}
+
+/// One face of several loops, the largest number of edges first.
+fn merged(loops: &[Face], list: &[usize]) -> Face {
+    let mut face = loops[list[0]].clone();
+    for &i in &list[1..] {
+        face.loops.extend(loops[i].loops.iter().cloned());
+        face.confidence = face.confidence.min(loops[i].confidence);
+    }
+    face
 }

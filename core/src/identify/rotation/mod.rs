@@ -9,6 +9,7 @@ mod ends;
 mod engine;
 pub mod features;
 mod frame;
+mod group;
 mod hand;
 mod orders;
 mod rings;

@@ -1,0 +1,109 @@
+//! Lifting loops before they are grouped into faces: parts of the drawing that share no vertex each
+//! keep a depth of their own.
+
+use glam::{DVec2, DVec3};
+
+use super::LiftError;
+use super::directions::Directions;
+use super::sheet::Sheet;
+use super::solve::{self, Solved};
+use crate::drawing::Drawing;
+use crate::identify::Face;
+
+/// A lifted drawing whose parts may still move in depth against each other.
+pub(crate) struct Pieces {
+    solved: Solved,
+    /// Mean of each face's vertices, the origin of its plane.
+    middles: Vec<DVec2>,
+    /// Axes in the camera frame, as in [`Directions::axes`].
+    pub(crate) axes: Vec<DVec3>,
+    /// Axis that each arc is a circle around, and the circle's centre as drawn.
+    pub(crate) circles: Vec<Option<(usize, DVec2)>>,
+    /// Standard error of the drawing's coordinates, drawing units.
+    pub(crate) precision: f64,
+}
+
+/// A plane `z = -(a x + b y + c)`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Tilt {
+    /// Slope along x, negative.
+    pub(crate) a: f64,
+    /// Slope along y, negative.
+    pub(crate) b: f64,
+    /// Depth of the origin, negative.
+    pub(crate) c: f64,
+}
+
+impl Tilt {
+    /// Depth of a drawn point.
+    pub(crate) fn depth(&self, p: DVec2) -> f64 {
+        -(self.a * p.x + self.b * p.y + self.c)
+    }
+}
+
+impl Pieces {
+    /// Lifts an orthographic drawing with the given faces, of all readings of its directions the
+    /// one that contradicts the faces least.
+    ///
+    /// # Errors
+    /// As [`lift`](super::lift()), but depths may stay open.
+    pub(crate) fn new(drawing: &Drawing, faces: &[Face]) -> Result<Self, LiftError> {
+        let mut best: Option<(usize, Self)> = None;
+        let mut refusal = None;
+        for reading in Directions::candidates(drawing)? {
+            if best.as_ref().is_some_and(|b| b.0 == 0) {
+                break;
+            }
+            let sheet = Sheet::new(drawing, faces, &reading);
+            match solve::solve_open(&sheet) {
+                Ok(solved) => {
+                    let dropped = solved.dropped();
+                    if best.as_ref().is_none_or(|b| 2 * dropped < b.0) {
+                        best = Some((dropped, Self::of(&sheet, solved)));
+                    }
+                }
+                Err(error) => refusal = Some(error),
+            }
+        }
+        match (best, refusal) {
+            (Some((_, pieces)), _) => Ok(pieces),
+            (None, Some(error)) => Err(error),
+            (None, None) => Err(LiftError::NoDirections("no reading".into())),
+        }
+    }
+
+    fn of(sheet: &Sheet<'_>, solved: Solved) -> Self {
+        Self {
+            solved,
+            middles: sheet.middles.clone(),
+            axes: sheet.directions.axes.iter().map(|a| a.direction).collect(),
+            circles: sheet
+                .circles
+                .iter()
+                .map(|c| c.map(|(k, circle)| (k, circle.center)))
+                .collect(),
+            precision: sheet.directions.precision,
+        }
+    }
+
+    /// Depth of a vertex.
+    pub(crate) fn depth(&self, vertex: usize) -> f64 {
+        self.solved.depth(vertex)
+    }
+
+    /// Whether the difference of two vertices' depths is determined.
+    pub(crate) fn are_tied(&self, u: usize, v: usize) -> bool {
+        self.solved.are_tied(u, v)
+    }
+
+    /// Plane of a planar face, if its slope is determined.
+    pub(crate) fn plane(&self, face: usize) -> Option<Tilt> {
+        let [a, b, c] = self.solved.plane(face)?;
+        let middle = self.middles[face];
+        Some(Tilt {
+            a,
+            b,
+            c: c - a * middle.x - b * middle.y,
+        })
+    }
+}
