@@ -58,19 +58,21 @@ pub(crate) fn draw(
     match labels {
         Labels::None => {}
         Labels::Faces => {
-            let radius = view.unit();
+            let unit = view.unit();
             let mut taken = Vec::new();
             // Small faces have the least choice of place.
             for &f in order.iter().rev() {
-                let at = polygon::label_point(&rings[f], &taken, radius)
+                let at = polygon::label_point(&rings[f], &taken, unit)
                     .or_else(|| mean(rings[f].iter().flatten()));
-                if let Some(at) = at {
-                    taken.push(at);
-                    page.disc(at, radius, colours[f].scaled(0.62));
-                    let white = Rgb(255, 255, 255);
-                    let number = (f + 1).to_string();
-                    page.text(at, &number, 1.15 * radius, white, Anchor::Middle, false);
-                }
+                let Some(at) = at else { continue };
+                taken.push(at);
+                // In a narrow face the label is smaller, as far as it can be read.
+                let room = polygon::boundary_distance(&rings[f], at);
+                let radius = unit * (room / unit).clamp(0.7, 1.0);
+                page.disc(at, radius, colours[f].scaled(0.62));
+                let white = Rgb(255, 255, 255);
+                let number = (f + 1).to_string();
+                page.text(at, &number, 1.15 * radius, white, Anchor::Middle, false);
             }
         }
         Labels::Edges => {
