@@ -289,8 +289,8 @@ def load() -> Library:
             tried.append(f"{path}: {error}")
     lines = "\n".join(f"  {line}" for line in tried)
     raise LibraryMissing(
-        f"The Faceformer library was not found. Install it there, or set {ENVIRONMENT} to its "
-        f"path. Tried:\n{lines}"
+        "The Faceformer library was not found. Put it into the last of these places, or set "
+        f"{ENVIRONMENT} to its path. Tried:\n{lines}"
     )
 
 

@@ -118,6 +118,7 @@ class MessageList(QtWidgets.QListWidget):
                 QtWidgets.QStyle, _ICONS.get(finding.severity, "SP_MessageBoxInformation")
             )
             item = QtWidgets.QListWidgetItem(self.style().standardIcon(icon), finding.message)
+            item.setToolTip(finding.message)
             self.addItem(item)
         self.setVisible(bool(findings))
 
