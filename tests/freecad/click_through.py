@@ -14,7 +14,7 @@ from mouse import click, click_3d, click_item, screenshot, tool_button, wait, wa
 
 V = FreeCAD.Vector
 NAMES = ("IdentifyFaces", "ConvertToSolid", "FlipDepth", "WireframeFromSolid")
-FACES = 12
+FACES = 10
 """Faces of the part, with each half of a hole's cylinder counted."""
 
 

@@ -137,7 +137,7 @@ class Identification:
             Reading(tuple(_face(k, face, drawing) for k, face in enumerate(faces, 1)), tuple(faces))
             for faces in sets
         )
-        return cls(data["engine"], drawing, readings, tuple(data.get("notices", [])))
+        return cls(data["engine"], drawing, readings, tuple(map(sentence, data.get("notices", []))))
 
     @property
     def faces(self) -> tuple[Face, ...]:
@@ -148,6 +148,11 @@ class Identification:
     def findings(self) -> tuple[Finding, ...]:
         """What the diagnosis of the drawing says."""
         return self.drawing.findings
+
+
+def sentence(message: str) -> str:
+    """A message of the library as a sentence of its own."""
+    return message[:1].upper() + message[1:]
 
 
 def _point(values: Sequence[float]) -> Point:
@@ -174,7 +179,7 @@ def _edge(edge: dict[str, Any], sources: Sequence[int]) -> Edge:
 def _finding(finding: dict[str, Any]) -> Finding:
     return Finding(
         str(finding["severity"]).lower(),
-        finding["message"],
+        sentence(finding["message"]),
         tuple(finding.get("edges", [])),
         tuple(_point(p) for p in finding.get("points", [])),
     )

@@ -17,7 +17,7 @@ from typing import Any, TypeVar
 
 from . import _native
 from .errors import BadInput, Failed
-from .model import Drawing, Identification
+from .model import Drawing, Identification, sentence
 from .plane import Vector
 from .pose import turn
 
@@ -86,7 +86,7 @@ class Built:
             f"Face {conflict['face'] + 1} does not agree with the others."
             for conflict in self.lift.get("conflicts", [])
         )
-        return tuple(self.plan.get("notices", [])) + conflicts
+        return tuple(map(sentence, self.plan.get("notices", []))) + conflicts
 
 
 class Store:
@@ -160,7 +160,7 @@ def names_in_errors(drawing: Drawing) -> Iterator[None]:
         yield
     except Failed as error:
         causes = [finding.message for finding in drawing.findings if finding.severity == "error"]
-        named = Failed(causes[0] if causes else with_names(str(error), drawing))
+        named = Failed(causes[0] if causes else sentence(with_names(str(error), drawing)))
         named.partial = error.partial
         raise named from error
 
