@@ -92,7 +92,7 @@ pub(crate) fn run(args: &SolidArgs) -> Result<(), Failure> {
     tell(&plan.notices);
     let report = solid.report();
     match target {
-        Target::Shape(format) => solid.write(output.path(), format)?,
+        Target::Shape(format) => solid.write(output.path()?, format)?,
         Target::Json => {
             let lift = &lift;
             let plan = &plan;

@@ -45,12 +45,13 @@ impl Built {
             ..PlanOptions::default()
         };
         let (plan, solid) = make(drawing, found, &lift, &options)?;
-        solid.write(scratch.path(), Format::Stl)?;
+        let path = scratch.path()?;
+        solid.write(path, Format::Stl)?;
         let read = |source| Failure::Read {
-            path: scratch.path().to_path_buf(),
+            path: path.to_path_buf(),
             source,
         };
-        let stl = std::fs::read(scratch.path()).map_err(read)?;
+        let stl = std::fs::read(path).map_err(read)?;
         let mesh = Mesh::from_stl(&stl)
             .ok_or_else(|| read(std::io::Error::from(std::io::ErrorKind::InvalidData)))?;
         Ok(Self {
