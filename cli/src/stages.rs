@@ -2,7 +2,7 @@
 
 use faceformer::Progress;
 use faceformer::drawing::{CleanDrawing, Drawing, Finding, Severity};
-use faceformer::identify::{self, EngineKind, Identification};
+use faceformer::identify::{self, Engine, EngineKind, Identification};
 use faceformer::lift::{Lift, LiftOptions, lift};
 
 use crate::args::{FacesArgs, IdentifyArgs, LiftArgs};
@@ -11,10 +11,9 @@ use crate::output::{Output, finish, json_line};
 use crate::source;
 
 /// Where faces come from.
-#[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum FacesFrom {
-    /// An engine finds them.
-    Engine(EngineKind),
+    /// An engine finds them. It is made once, however many drawings it sees.
+    Engine(Box<dyn Engine>),
     /// The drawing's truth.
     Truth,
     /// A faces file.
@@ -27,8 +26,13 @@ impl FacesFrom {
         match (&args.faces, args.engine) {
             (Some(name), _) if name == "truth" => Self::Truth,
             (Some(name), _) => Self::File(name.clone()),
-            (None, engine) => Self::Engine(engine.unwrap_or_default()),
+            (None, kind) => Self::engine(kind.unwrap_or_default()),
         }
+    }
+
+    /// The engine of that kind.
+    pub(crate) fn engine(kind: EngineKind) -> Self {
+        Self::Engine(identify::engine(kind))
     }
 
     /// The faces of a drawing.
@@ -38,7 +42,7 @@ impl FacesFrom {
     /// [`Failure::Faces`] if the file does not fit it.
     pub(crate) fn faces(&self, drawing: &Drawing) -> Result<Identification, Failure> {
         match self {
-            Self::Engine(kind) => Ok(identify::engine(*kind).identify(drawing, Progress::none())?),
+            Self::Engine(engine) => Ok(engine.identify(drawing, Progress::none())?),
             Self::Truth => identify::from_truth(drawing).ok_or_else(|| {
                 Failure::Usage(
                     "the drawing has no truth: name an engine, or a file of faces".to_owned(),
@@ -97,7 +101,7 @@ pub(crate) fn tell(notices: &[String]) {
 pub(crate) fn run_identify(args: &IdentifyArgs) -> Result<(), Failure> {
     let output = args.output.as_deref().map(Output::create).transpose()?;
     let drawing = usable(&args.drawing)?;
-    let found = FacesFrom::Engine(args.engine).faces(&drawing)?;
+    let found = FacesFrom::engine(args.engine).faces(&drawing)?;
     tell(&found.notices);
     finish(output, &json_line(&found)?)
 }
