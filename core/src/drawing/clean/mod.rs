@@ -119,7 +119,10 @@ pub(super) fn clean_raw(
     drawing.check(limits)?;
     let sources: Vec<Vec<usize>> = net.pieces.into_iter().map(|p| p.sources).collect();
     let mut findings = net.findings;
-    let names: Vec<String> = sources.iter().map(|s| names(&labels, s)).collect();
+    let names: Vec<String> = sources
+        .iter()
+        .map(|s| net::joint_name(&labels, s))
+        .collect();
     for finding in diagnose::findings(&drawing, &names) {
         findings.push(finding.about_sources(&sources));
     }

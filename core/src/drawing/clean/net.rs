@@ -93,9 +93,11 @@ impl Net<'_> {
     }
 }
 
-/// The names of edges, for a message: at most four of them.
+/// Most edges that a message names.
+const SHOWN: usize = 4;
+
+/// The names of edges, for a message.
 pub(in super::super) fn names(labels: &[String], edges: &[usize]) -> String {
-    const SHOWN: usize = 4;
     let mut text = String::new();
     for (i, &e) in edges.iter().take(SHOWN).enumerate() {
         let last = i + 1 == edges.len();
@@ -110,6 +112,19 @@ pub(in super::super) fn names(labels: &[String], edges: &[usize]) -> String {
         text += &format!(" and {} more", edges.len() - SHOWN);
     }
     text
+}
+
+/// The name of one edge that was made from several.
+pub(super) fn joint_name(labels: &[String], edges: &[usize]) -> String {
+    let mut shown: Vec<&str> = edges
+        .iter()
+        .take(SHOWN)
+        .map(|&e| labels[e].as_str())
+        .collect();
+    if edges.len() > SHOWN {
+        shown.push("...");
+    }
+    shown.join(" + ")
 }
 
 /// Union of two sorted lists.

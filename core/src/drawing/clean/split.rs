@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use super::super::grid::PointGrid;
 use super::super::{Curve2, DrawingError, FindingKind};
-use super::net::{Net, union};
+use super::net::{self, Net, union};
 use super::piece::{Foot, Piece};
 
 /// Most touches of a drawing: several for each of the most edges that it may have.
@@ -149,9 +149,10 @@ pub(super) fn split_at_ends(net: &mut Net<'_>, reach: f64, exact: f64) -> Result
         let ends = union(&ends, &[]);
         let place = piece.point(t.foot.u);
         let message = format!(
-            "{} was cut where {} ends on it; draw a vertex there",
-            net.names(&piece.sources),
-            net.names(&ends)
+            "{} was cut where {} {} on it; draw a vertex there",
+            net::joint_name(net.labels, &piece.sources),
+            net.names(&ends),
+            if ends.len() == 1 { "ends" } else { "end" }
         );
         let edges = union(&ends, &piece.sources);
         net.note(FindingKind::Split, message, edges, vec![place]);

@@ -5,7 +5,7 @@
 
 mod parts;
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use super::clean::{Piece, Touch, names, runs_along, touches};
 use super::{Drawing, Finding, FindingKind, Graph, Severity};
@@ -130,48 +130,46 @@ impl Case<'_> {
     /// Vertices on the inside of edges, and edges that lie on each other along a stretch.
     fn touches(&self) -> Vec<Finding> {
         let pieces: Vec<Piece> = self.drawing.edges.iter().enumerate().map(piece).collect();
-        let mut found = Vec::new();
         let reach = NEAR * self.size;
+        let mut found = Vec::new();
+        let mut told = HashSet::new();
         for touch in touches(&pieces, &self.drawing.vertices, reach, reach, MOST_TOUCHES) {
+            let on = touch.piece;
             let ending = self.edges_at(touch.vertex);
-            let on = &self.labels[touch.piece];
-            let along: Vec<usize> = ending
-                .iter()
-                .copied()
-                .filter(|&e| {
-                    runs_along(&pieces[touch.piece], &touch, &pieces[e], EXACT * self.size)
-                })
-                .collect();
-            let mut edges = vec![touch.piece];
-            if !along.is_empty() {
-                edges.extend(&along);
-                found.push(self.finding(
-                    Severity::Warning,
-                    FindingKind::Overlap,
-                    format!(
-                        "{} lie on each other along a stretch; delete the part that is there \
-                         twice, or turn the solid a little before drawing it",
-                        names(self.labels, &edges)
-                    ),
-                    edges,
-                    vec![touch.vertex],
-                ));
+            let along =
+                |&&e: &&usize| runs_along(&pieces[on], &touch, &pieces[e], EXACT * self.size);
+            if let Some(&other) = ending.iter().find(along) {
+                // Each of the two may end on the other.
+                if told.insert([on.min(other), on.max(other)]) {
+                    found.push(self.overlap(vec![on.min(other), on.max(other)], touch.vertex));
+                }
             } else if self.is_meant(&touch) {
-                edges.extend(&ending);
-                let name = names(self.labels, &ending);
-                found.push(self.finding(
-                    Severity::Warning,
-                    FindingKind::TJunction,
-                    format!(
-                        "the end of {name} lies on the inside of {on}; \
-                         if they meet there, cut {on} at that point"
-                    ),
-                    edges,
-                    vec![touch.vertex],
-                ));
+                found.push(self.t_junction(on, ending, touch.vertex));
             }
         }
         found
+    }
+
+    fn overlap(&self, edges: Vec<usize>, vertex: usize) -> Finding {
+        let message = format!(
+            "{} lie on each other along a stretch; delete what is there twice, or turn the solid a \
+             little before drawing it",
+            names(self.labels, &edges)
+        );
+        let kind = FindingKind::Overlap;
+        self.finding(Severity::Warning, kind, message, edges, vec![vertex])
+    }
+
+    fn t_junction(&self, on: usize, ending: Vec<usize>, vertex: usize) -> Finding {
+        let label = &self.labels[on];
+        let message = format!(
+            "the end of {} lies on the inside of {label}; if they meet there, cut {label} at that \
+             point",
+            names(self.labels, &ending)
+        );
+        let edges = [vec![on], ending].concat();
+        let kind = FindingKind::TJunction;
+        self.finding(Severity::Warning, kind, message, edges, vec![vertex])
     }
 
     /// Whether a vertex on an edge is more than an accident of the projection.
@@ -198,17 +196,7 @@ impl Case<'_> {
                 others.push(this);
                 continue;
             };
-            let edges = vec![twin.sources[0], i];
-            found.push(self.finding(
-                Severity::Warning,
-                FindingKind::Overlap,
-                format!(
-                    "{} lie on each other; delete one of them",
-                    names(self.labels, &edges)
-                ),
-                edges,
-                vec![a, b],
-            ));
+            found.push(self.overlap(vec![twin.sources[0], i], a));
         }
         found
     }
@@ -220,3 +208,6 @@ fn piece((index, edge): (usize, &super::Edge)) -> Piece {
     piece.v = edge.v;
     piece
 }
+
+#[cfg(test)]
+mod tests;

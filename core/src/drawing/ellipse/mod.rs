@@ -34,7 +34,7 @@ pub(super) const FEWEST: usize = 6;
 
 /// Rounds of refinement. Each one squares the small error of the weights, so two would do for
 /// points that lie on an ellipse.
-const ROUNDS: usize = 3;
+const ROUNDS: usize = 2;
 
 /// Axes beyond this many times the points' spread are no ellipse to speak of: a thousandth of a
 /// radian of it would be seen.
