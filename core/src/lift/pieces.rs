@@ -17,10 +17,6 @@ pub(crate) struct Pieces {
     middles: Vec<DVec2>,
     /// Axes in the camera frame, as in [`Directions::axes`].
     pub(crate) axes: Vec<DVec3>,
-    /// Axis that each arc is a circle around, and the circle's centre as drawn.
-    pub(crate) circles: Vec<Option<(usize, DVec2)>>,
-    /// Standard error of the drawing's coordinates, drawing units.
-    pub(crate) precision: f64,
 }
 
 /// A plane `z = -(a x + b y + c)`.
@@ -77,23 +73,12 @@ impl Pieces {
             solved,
             middles: sheet.middles.clone(),
             axes: sheet.directions.axes.iter().map(|a| a.direction).collect(),
-            circles: sheet
-                .circles
-                .iter()
-                .map(|c| c.map(|(k, circle)| (k, circle.center)))
-                .collect(),
-            precision: sheet.directions.precision,
         }
     }
 
     /// Depth of a vertex.
     pub(crate) fn depth(&self, vertex: usize) -> f64 {
         self.solved.depth(vertex)
-    }
-
-    /// Whether the difference of two vertices' depths is determined.
-    pub(crate) fn are_tied(&self, u: usize, v: usize) -> bool {
-        self.solved.are_tied(u, v)
     }
 
     /// Plane of a planar face, if its slope is determined.

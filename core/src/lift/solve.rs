@@ -33,11 +33,6 @@ impl Solved {
         self.active.iter().filter(|a| !**a).count()
     }
 
-    /// Whether the difference of two vertices' depths is determined.
-    pub(super) fn are_tied(&self, u: usize, v: usize) -> bool {
-        self.null_space.are_tied(u, v)
-    }
-
     pub(super) fn depth(&self, vertex: usize) -> f64 {
         self.x[vertex]
     }

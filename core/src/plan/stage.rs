@@ -10,7 +10,7 @@ use crate::lift::Lift;
 use super::curves::{self, Place};
 use super::lengths::Lengths;
 use super::orient::orient;
-use super::snap::{Measured, Snapped, snap};
+use super::snap::{Measured, snap};
 use super::support::Support;
 use super::uses::{Use, uses};
 use super::vertices::Incidence;
@@ -79,16 +79,8 @@ pub fn plan(drawing: &Drawing, faces: &[Face], lift: &Lift, options: &PlanOption
         .map(|(p, z)| view.place(*p, *z))
         .collect();
 
-    let mut snapped = snap_faces(
-        drawing,
-        faces,
-        lift,
-        &uses,
-        &view,
-        &lifted,
-        &axes,
-        snap_length,
-    )?;
+    let measured = measured(drawing, faces, lift, &view, &lifted)?;
+    let mut snapped = snap(&measured, &smooth_pairs(drawing, &uses), &axes, snap_length);
     notices.append(&mut snapped.notices);
     let incidence = Incidence::new(drawing, &uses, &snapped.of_face);
     touch::make_exact(&mut snapped.supports, &incidence.contacts(), snap_length);
@@ -191,17 +183,14 @@ fn check(
     Ok(())
 }
 
-/// The faces' surfaces in the plan's frame, snapped.
-fn snap_faces(
+/// The faces' surfaces in the plan's frame, with the points that they must pass through.
+fn measured(
     drawing: &Drawing,
     faces: &[Face],
     lift: &Lift,
-    uses: &[[Use; 2]],
     view: &View,
     lifted: &[DVec3],
-    axes: &[DVec3],
-    tolerance: f64,
-) -> Result<Snapped, PlanError> {
+) -> Result<Vec<Measured>, PlanError> {
     let mut measured = Vec::with_capacity(faces.len());
     for (f, (face, surface)) in faces.iter().zip(&lift.surfaces).enumerate() {
         let support = Support::from_lift(surface).map_err(|what| PlanError::Surface {
@@ -217,11 +206,14 @@ fn snap_faces(
             points: corners.collect(),
         });
     }
-    let smooth: Vec<[usize; 2]> = uses
-        .iter()
+    Ok(measured)
+}
+
+/// Pairs of faces that meet in a straight edge, where a cylinder may touch its neighbour.
+fn smooth_pairs(drawing: &Drawing, uses: &[[Use; 2]]) -> Vec<[usize; 2]> {
+    uses.iter()
         .zip(&drawing.edges)
         .filter(|(_, edge)| edge.is_straight())
         .map(|([a, b], _)| [a.face, b.face])
-        .collect();
-    Ok(snap(&measured, &smooth, axes, tolerance))
+        .collect()
 }
