@@ -3,6 +3,7 @@
 
 import math
 import os
+from pathlib import Path
 
 import FreeCAD
 import Part
@@ -77,8 +78,10 @@ def main():
     refuses("garbage", ["not a drawing"], lambda: _native.read_drawing("garbage"), BadInput)
     refuses("NaN in JSON", [], lambda: _native.read_drawing('{"edges":[NaN]}'), BadInput)
 
+    # The workbench may have a library of its own, which would be taken instead.
     os.environ[_native.ENVIRONMENT] = "/nowhere/library.so"
-    refuses("a missing library", ["/nowhere/library.so"], _native.load, LibraryMissing)
+    _native.NATIVE = Path("/nowhere/native")
+    refuses("a missing library", ["/nowhere/library.so", "/nowhere/native"], _native.load, LibraryMissing)
     check([obj.Name for obj in document.Objects] == before, "the document is as it was")
 
 
