@@ -76,6 +76,10 @@ def frame(origin: Vector = ORIGIN, normal: Vector = Z, x: Vector | None = None) 
     return gp_Ax2(point(origin), direction(normal), direction(x))
 
 
+# The xz plane: what was drawn in (x, y) stands upright, as a profile about the z axis does.
+UPRIGHT = frame(ORIGIN, (0, -1, 0), X)
+
+
 def explore(shape: TopoDS_Shape, kind: TopAbs_ShapeEnum) -> list[TopoDS_Shape]:
     """The distinct subshapes of one kind, in the order in which the shape lists them."""
     found = TopTools_IndexedMapOfShape()
@@ -192,7 +196,8 @@ def _boolean(operation, name: str, base: TopoDS_Shape, tools: Sequence[TopoDS_Sh
     operation.SetRunParallel(False)
     operation.SetToFillHistory(False)
     operation.Build()
-    if not operation.IsDone() or operation.HasErrors():
+    # After an error of the operation there is no shape.
+    if not operation.IsDone() or operation.Shape().IsNull():
         raise Refused(name)
     return operation.Shape()
 

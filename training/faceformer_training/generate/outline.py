@@ -13,6 +13,7 @@ from OCP.BRepBuilderAPI import (
     BRepBuilderAPI_MakeFace,
     BRepBuilderAPI_MakeWire,
 )
+from OCP.BRepTools import BRepTools
 from OCP.GC import GC_MakeArcOfCircle
 from OCP.GeomAPI import GeomAPI_Interpolate
 from OCP.gp import gp_Circ, gp_Elips, gp_Pnt
@@ -52,12 +53,13 @@ class Outline:
         self.steps.append(Step(end, tuple(via)))
         return self
 
-    def edges(self) -> list[TopoDS_Edge]:
+    def edges(self, closed: bool = True) -> list[TopoDS_Edge]:
+        """The chain's edges, with the line that closes it if ``closed`` and there is a gap."""
         chain, at = [], self.start
         for step in self.steps:
             chain.append(_edge(at, step))
             at = step.end
-        if math.dist(at, self.start) > 1e-9:
+        if closed and math.dist(at, self.start) > 1e-9:
             chain.append(_edge(at, Step(self.start)))
         return chain
 
@@ -174,13 +176,7 @@ def face(outer: Outline | Ellipse, *holes: Outline | Ellipse) -> TopoDS_Face:
     for hole in holes:
         # A hole's wire must run against the outer one: MakeFace takes it as it is.
         alone = BRepBuilderAPI_MakeFace(hole.wire(), True).Face()
-        made.Add(TopoDS.Wire_s(_outer_wire(alone).Reversed()))
+        made.Add(TopoDS.Wire_s(BRepTools.OuterWire_s(alone).Reversed()))
     if not made.IsDone():
         raise Refused("outline")
     return made.Face()
-
-
-def _outer_wire(plane_face: TopoDS_Face) -> TopoDS_Wire:
-    from OCP.BRepTools import BRepTools
-
-    return BRepTools.OuterWire_s(plane_face)
