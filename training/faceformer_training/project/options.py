@@ -25,6 +25,9 @@ class ProjectOptions:
     min_tilt_late: float = 5e-3
     """The same in the last tries, and in the fixed isometric view a fifth of it."""
     tries: int = 8
+    """Random views drawn in full before a solid is given up."""
+    looks: int = 400
+    """Random views looked at in all; most that are not generic are refused at a glance."""
     min_thickness: float = 4e-3
     min_volume: float = 1e-6
     mesh_deflection: float = 0.02

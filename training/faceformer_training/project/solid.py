@@ -67,23 +67,38 @@ class PreparedSolid:
         Random views are drawn again until one is generic; the isometric view gives way to its
         three sisters. Raises what the last try raised.
         """
-        options = self.options
-        tries = len(ISOMETRIC) if kind == "iso" else options.tries
         last: ProjectionError | None = None
-        for number in range(tries):
-            tilt = options.min_tilt if number < tries - 3 else options.min_tilt_late
-            if kind == "iso":
-                view, tilt = isometric_view(number), options.min_tilt_late / 5
-            else:
-                view = random_view(rng, kind, options)
+        for view, tilt in self._views(kind, rng):
             try:
                 return self.draw(view, name, source, tilt)
             except ProjectionError as error:
                 last = error
                 if error.code in ("too-few-faces", "too-many-faces"):
                     raise
-        assert last is not None
+        if last is None:
+            raise ViewError("view-coincident", "not one generic view at a glance")
         raise last
+
+    def _views(self, kind: str, rng: np.random.Generator) -> Iterator[tuple[View, float]]:
+        """Views to try in turn, each with its least tilt of planes."""
+        options = self.options
+        if kind == "iso":
+            for number in range(len(ISOMETRIC)):
+                yield isometric_view(number), options.min_tilt_late / 5
+            return
+        drawn = 0
+        for look in range(options.looks):
+            late = look > options.looks // 2 or drawn > options.tries // 2
+            tilt = options.min_tilt_late if late else options.min_tilt
+            view = random_view(rng, kind, options)
+            try:
+                self._refuse_early(view, tilt)
+            except ViewError:
+                continue
+            yield view, tilt
+            drawn += 1
+            if drawn == options.tries:
+                return
 
     def is_large(self, drawing: Drawing) -> bool:
         """Whether a drawing belongs in the bucket of large solids."""
