@@ -2,7 +2,7 @@
 # Runs the tests: formatting, lints, then every test of the workspace.
 #
 #   ./test.sh         the fast ones
-#   ./test.sh --all   the slow ones too: FreeCAD, C and C++ consumers, the whole corpus
+#   ./test.sh --all   the slow ones too: FreeCAD, C and C++ consumers, the whole corpus, solids projected
 #
 # With the variable CI set, --all is taken as given. Missing tools are installed.
 set -euo pipefail
@@ -56,6 +56,10 @@ step "Building"
 cargo build --release -p faceformer-cli -p faceformer-capi
 FACEFORMER_LIBRARY="$(target_dir)/release/libfaceformer_capi.so"
 export FACEFORMER_LIBRARY LANG=C.UTF-8 LC_ALL=C.UTF-8
+
+step "Tests of the training package"
+need_training
+training/.venv/bin/python -m pytest --quiet ${all:+-m ""} training
 
 step "Tests"
 if [ -n "$all" ]; then

@@ -60,6 +60,17 @@ need_cargo() {
         fail "cargo is still older than $wanted: run rustup update stable, then this again."
 }
 
+# Installs the Python package in training/ with all it needs into training/.venv, anew when it asks
+# for other packages than it did.
+need_training() {
+    local stamp=training/.venv/installed.toml
+    cmp -s training/pyproject.toml "$stamp" && return 0
+    step "Installing the training package into training/.venv"
+    python3 -m venv training/.venv
+    training/.venv/bin/pip install --quiet --disable-pip-version-check -e 'training[dev,plot]'
+    cp training/pyproject.toml "$stamp"
+}
+
 # What compiles Rust, the C++ bridge, and OpenCASCADE's own headers.
 BUILD_PACKAGES=(
     ca-certificates curl g++ make cmake
