@@ -81,7 +81,12 @@ def main():
     # The workbench may have a library of its own, which would be taken instead.
     os.environ[_native.ENVIRONMENT] = "/nowhere/library.so"
     _native.NATIVE = Path("/nowhere/native")
-    refuses("a missing library", ["/nowhere/library.so", "/nowhere/native"], _native.load, LibraryMissing)
+    refuses(
+        "a missing library",
+        ["/nowhere/library.so", "/nowhere/native"],
+        _native.load,
+        LibraryMissing,
+    )
     check([obj.Name for obj in document.Objects] == before, "the document is as it was")
 
 
