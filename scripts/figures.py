@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Measures the engines and the solids on a data set and prints the tables of the README.
 
-    python3 scripts/figures.py [DATA.jsonl.zst] [--program target/release/faceformer]
+python3 scripts/figures.py [DATA.jsonl.zst] [--program target/release/faceformer]
 """
 
 import argparse
