@@ -31,6 +31,10 @@ from .options import ProjectOptions
 from .surfaces import FaceSurface, xyz
 
 
+SMOOTH = 3e-3
+"""Largest angle between two faces' normals (radians) along an edge that counts as smooth."""
+
+
 @dataclass
 class CoEdge:
     """Edge ``edge`` in a face's wire, walked from its first vertex if ``forward``.
@@ -198,17 +202,14 @@ class Brep:
             if len(nodes[0]) != len(nodes[1]):
                 continue
             dots = (self.node_normals[nodes[0]] * self.node_normals[nodes[1]]).sum(1)
-            if dots.min() > np.cos(0.02):
+            if dots.min() > np.cos(SMOOTH):
                 edge.smooth = True
                 pairs.append(np.stack(nodes))
         self.node_class = glue(offset, np.hstack(pairs))
 
     def _summarise(self) -> None:
         drawn = Counter(
-            v
-            for edge in self.edges
-            if edge.curve is not None and not edge.seam
-            for v in (edge.v if edge.v[0] != edge.v[1] else (*edge.v, edge.v[0]))
+            v for edge in self.edges if edge.curve is not None and not edge.seam for v in edge.v
         )
         self.firm = np.array([v for v, n in drawn.items() if n >= 3], dtype=int)
         real = sum(edge.curve is not None for edge in self.edges)
