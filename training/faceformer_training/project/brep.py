@@ -30,7 +30,6 @@ from .mesh import FaceMesh, glue
 from .options import ProjectOptions
 from .surfaces import FaceSurface, xyz
 
-
 SMOOTH = 3e-3
 """Largest angle between two faces' normals (radians) along an edge that counts as smooth."""
 
