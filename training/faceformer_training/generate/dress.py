@@ -5,6 +5,7 @@ from OCP.BRepAdaptor import BRepAdaptor_Curve
 from OCP.BRepFilletAPI import BRepFilletAPI_MakeChamfer, BRepFilletAPI_MakeFillet
 from OCP.BRepOffset import BRepOffset_Mode
 from OCP.BRepOffsetAPI import BRepOffsetAPI_MakeThickSolid
+from OCP.BRepTools import BRepTools
 from OCP.GCPnts import GCPnts_AbscissaPoint
 from OCP.GeomAbs import GeomAbs_CurveType, GeomAbs_JoinType
 from OCP.TopAbs import TopAbs_ShapeEnum
@@ -13,7 +14,7 @@ from OCP.TopoDS import TopoDS, TopoDS_Edge, TopoDS_Face, TopoDS_Shape
 from OCP.TopTools import TopTools_IndexedDataMapOfShapeListOfShape
 
 from .dice import Dice
-from .kernel import Refused, edges, faces, guarded, shape_list
+from .kernel import Refused, edges, explore, faces, guarded, shape_list
 from .spots import flat
 
 
@@ -84,12 +85,37 @@ def hollow(shape: TopoDS_Shape, open_faces: list[TopoDS_Face], wall: float) -> T
     return made.Shape()
 
 
+def inner_rims(shape: TopoDS_Shape) -> list[list[TopoDS_Edge]]:
+    """The inner loops of the planar faces: rims of holes and pockets, feet of bosses."""
+    rims = []
+    for side in faces(shape):
+        wires = explore(side, TopAbs_ShapeEnum.TopAbs_WIRE)
+        if len(wires) > 1 and flat(side) is not None:
+            outer = BRepTools.OuterWire_s(side)
+            rims += [edges(w) for w in wires if not w.IsSame(outer)]
+    return rims
+
+
+def dress_rims(dice: Dice, shape: TopoDS_Shape) -> TopoDS_Shape:
+    """One or two inner rims rounded or bevelled; the body as it is if it has none."""
+    rims = inner_rims(shape)
+    if not rims:
+        return shape
+    chosen = [e for rim in dice.sample(rims, min(len(rims), dice.few(2))) for e in rim]
+    r = room_at(chosen, shape) * dice.uniform(0.1, 0.45)
+    return fillet(shape, chosen, r) if dice.chance(0.6) else chamfer(shape, chosen, r)
+
+
 def choose_edges(dice: Dice, shape: TopoDS_Shape, most: int = 24) -> list[TopoDS_Edge]:
     """Edges as a designer would pick them: a direction's, a face's, all, or a few."""
     pairs = edge_faces(shape)
     if not pairs:
         raise Refused("no edge to dress")
-    kind = dice.weighted({"direction": 3, "face": 3, "few": 3, "all": 1.2})
+    kind = dice.weighted({"direction": 3, "face": 3, "few": 3, "all": 1.2, "rim": 1.5})
+    if kind == "rim":
+        rims = inner_rims(shape)
+        if rims:
+            return dice.choice(rims)
     if kind == "direction":
         ways = [(e, tangent(e)) for e, _ in pairs]
         straight = [(e, t) for e, t in ways if t is not None]

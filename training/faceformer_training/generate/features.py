@@ -7,14 +7,34 @@ little out of the face, so that no two coincident faces have to be matched.
 import math
 from dataclasses import dataclass, field
 
+import numpy as np
 from OCP.gp import gp_Ax2, gp_Dir, gp_Vec
 from OCP.TopoDS import TopoDS_Shape
 
 from .dice import Dice
-from .kernel import UPRIGHT, cone, cut, extrude, frame, fuse, placed, revolve, sphere, torus
+from .dress import dress_rims, edge_faces, length, tangent
+from .kernel import (
+    UPRIGHT,
+    Refused,
+    X,
+    Y,
+    Z,
+    centred_box,
+    cone,
+    cut,
+    cylinder,
+    extrude,
+    frame,
+    fuse,
+    placed,
+    revolve,
+    sphere,
+    torus,
+    turned,
+)
 from .outline import Ellipse, Outline, circle, face, polygon, rounded
 from .sections import ngon_points, rectangle_points, sector, slot
-from .spots import Board, Spot
+from .spots import Board, Spot, polyline
 
 
 @dataclass
@@ -267,20 +287,48 @@ def _down(spot: Spot, above: float) -> gp_Ax2:
     return frame(spot.centre + above * spot.normal, -spot.normal, spot.along)
 
 
+def notch(dice: Dice, body: TopoDS_Shape) -> TopoDS_Shape:
+    """The body with a bite out of one of its straight edges: square, round or slanted."""
+    straight = [(e, t) for e, _ in edge_faces(body) if (t := tangent(e)) is not None]
+    if not straight:
+        raise Refused("no edge for a notch")
+    edge, way = dice.choice(straight)
+    long = length(edge)
+    ends = polyline(edge)
+    at = ends[0] + dice.part(0.1, 0.9) * (ends[1] - ends[0])
+    w, deep = long * dice.uniform(0.1, 0.35), long * dice.length(0.08, 0.4)
+    along = frame(at, way)
+    match dice.weighted({"box": 3, "turned box": 1, "across": 2, "ball": 0.6, "cone": 0.6}):
+        case "box":
+            tool = placed(centred_box(2 * deep, 2 * deep, w), along)
+        case "turned box":
+            tool = placed(turned(centred_box(2 * deep, 2 * deep, w), math.pi / 4), along)
+        case "across":
+            across = np.cross(way, dice.choice([X, Y, Z]))
+            if np.linalg.norm(across) < 0.5:
+                across = np.cross(way, X if abs(way[0]) < 0.9 else Y)
+            tool = cylinder(w / 2, 200, frame(at - 100 * across, across))
+        case "ball":
+            tool = sphere(min(w, deep), along)
+        case _:
+            tool = cone(deep, 0.4 * deep, w, along)
+    return cut(body, tool)
+
+
 KINDS = {
-    plain_hole: 5.0,
-    drilled_hole: 0.8,
+    plain_hole: 3.0,
+    drilled_hole: 1.0,
     counterbore: 1.6,
     countersink: 1.6,
-    tapered_hole: 0.6,
-    dimple: 0.5,
-    ring_groove: 0.6,
-    pocket: 3.5,
+    tapered_hole: 0.8,
+    dimple: 0.8,
+    ring_groove: 0.8,
+    pocket: 3.0,
     boss: 2.5,
-    cone_boss: 0.7,
-    dome: 0.7,
+    cone_boss: 1.0,
+    dome: 1.2,
     rib: 0.8,
-    grid_of_holes: 1.0,
+    grid_of_holes: 0.4,
 }
 PLANAR = {pocket: 3.0, rib: 1.0, boss: 1.0}
 
@@ -289,7 +337,12 @@ def add(dice: Dice, body: TopoDS_Shape, count: int, kinds: dict | None = None) -
     """The body with up to ``count`` features, on spots that do not overlap."""
     if count == 0:
         return body
+    while count and dice.chance(0.18):
+        body, count = notch(dice, body), count - 1
+    if count == 0:
+        return body
     board, tools = Board(body), Tools()
     for _ in range(count):
         tools.extend(dice.weighted(kinds or KINDS)(dice, board.spot(dice)))
-    return tools.apply(body)
+    body = tools.apply(body)
+    return dress_rims(dice, body) if kinds is not PLANAR and dice.chance(0.15) else body

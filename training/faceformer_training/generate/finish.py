@@ -121,6 +121,10 @@ def finish(body: TopoDS_Shape, limits: Limits) -> Finished:
     all_faces, all_edges = faces(solid), edges(solid)
     if len(all_faces) > limits.faces or len(all_edges) > limits.edges:
         raise Refused("too many faces")
+    surfaces = [BRepAdaptor_Surface(f, False).GetType() for f in all_faces]
+    if GeomAbs_SurfaceType.GeomAbs_OffsetSurface in surfaces:
+        # A shell's offset of a free-form surface: it cannot be evaluated everywhere.
+        raise Refused("an offset surface")
     lengths = [length(e) for e in all_edges if not BRep_Tool.Degenerated_s(e)]
     if not lengths or min(lengths) < SHORTEST_EDGE:
         raise Refused("an edge too short")
@@ -135,7 +139,7 @@ def finish(body: TopoDS_Shape, limits: Limits) -> Finished:
     volume = measured.Mass()
     if volume < SMALLEST_VOLUME:
         raise Refused("no volume")
-    kinds = [SURFACES.get(BRepAdaptor_Surface(f, False).GetType(), "other") for f in all_faces]
+    kinds = [SURFACES.get(s, "other") for s in surfaces]
     return Finished(
         TopoDS.Solid_s(solid),
         len(all_faces),

@@ -1,7 +1,7 @@
 """The calls to OpenCASCADE that the recipes share.
 
 Every function either returns a shape or raises :class:`Refused`; OCCT's own exceptions
-(``Standard_Failure``) are turned into it by :func:`guarded`, so that a refusal always has a reason
+are turned into it by :func:`guarded`, so that a refusal always has a reason
 that can be counted. Lengths are the recipe's own: :mod:`.finish` scales at the end.
 """
 
@@ -26,7 +26,6 @@ from OCP.BRepPrimAPI import (
     BRepPrimAPI_MakeTorus,
 )
 from OCP.gp import gp_Ax1, gp_Ax2, gp_Ax3, gp_Dir, gp_Pln, gp_Pnt, gp_Trsf, gp_Vec
-from OCP.Standard import Standard_Failure
 from OCP.TopAbs import TopAbs_ShapeEnum
 from OCP.TopExp import TopExp
 from OCP.TopoDS import TopoDS, TopoDS_Edge, TopoDS_Face, TopoDS_Shape, TopoDS_Wire
@@ -41,6 +40,11 @@ class Refused(Exception):
     """A solid that could not be made as drawn; its text is the reason it is counted under."""
 
 
+def from_kernel(error: BaseException) -> bool:
+    """Whether an exception is OCCT's. Its Python classes have no base of their own in common."""
+    return type(error).__module__.partition(".")[0] == "OCP"
+
+
 def guarded(reason: str) -> Callable:
     """Turns an exception of OCCT in the decorated function into ``Refused(reason)``."""
 
@@ -49,8 +53,10 @@ def guarded(reason: str) -> Callable:
         def call(*args, **kwargs):
             try:
                 return function(*args, **kwargs)
-            except Standard_Failure as error:
-                raise Refused(reason) from error
+            except Exception as error:
+                if from_kernel(error):
+                    raise Refused(reason) from error
+                raise
 
         return call
 

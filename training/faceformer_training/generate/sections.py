@@ -11,7 +11,7 @@ from .dice import Dice
 from .outline import Ellipse, Outline, Point, circle, polygon, rounded
 
 
-def soften(dice: Dice, points: Sequence[Point], p: float = 0.35) -> Outline:
+def soften(dice: Dice, points: Sequence[Point], p: float = 0.42) -> Outline:
     """The polygon, with probability ``p`` with some or all corners rounded."""
     if not dice.chance(p):
         return polygon(points)
@@ -264,8 +264,8 @@ POLYGONS = {
     convex: 1.0,
     star: 0.4,
 }
-ROUND = {"disc": 2.0, "slot": 1.5, "link": 1.2, "chord": 1.2, "sector": 1.0, "ellipse": 0.4}
-FREE = {arched: 1.5, lens: 0.8, blob: 0.5}
+ROUND = {"disc": 2.0, "slot": 1.5, "link": 1.2, "chord": 1.2, "sector": 1.0, "ellipse": 0.8}
+FREE = {arched: 1.2, lens: 0.8, blob: 1.2}
 
 
 def round_section(dice: Dice) -> Outline | Ellipse:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from .dice import Dice
 from .finish import Finished, Limits, finish
-from .kernel import Refused
+from .kernel import Refused, from_kernel
 from .recipes import draw, names
 
 # A recipe is refused about one time in three, so this many in a row do not happen by chance.
@@ -31,7 +31,9 @@ def attempt(seed: int, k: int, number: int, limits: Limits, recipe: str | None =
         return Attempt(name, finish(make(dice), limits), None)
     except Refused as refused:
         return Attempt(name, None, str(refused))
-    except (ArithmeticError, LookupError, TypeError, ValueError) as fault:
+    except Exception as fault:
+        if from_kernel(fault):
+            return Attempt(name, None, f"the kernel: {type(fault).__name__}")
         # A fault of the recipe itself: said at once, counted, and no reason to stop a long run.
         traceback.print_exc()
         return Attempt(name, None, f"a fault in {name}: {fault!r}")

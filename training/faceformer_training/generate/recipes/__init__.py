@@ -15,12 +15,12 @@ Recipe = Callable[[Dice], TopoDS_Shape]
 
 # Share of each family; within it, its own table decides.
 FAMILIES = {
-    basic: 16.0,
-    blocks: 22.0,
-    brackets: 13.0,
-    housings: 14.0,
+    basic: 22.0,
+    blocks: 16.0,
+    brackets: 11.0,
+    housings: 18.0,
     joined: 11.0,
-    plates: 18.0,
+    plates: 13.0,
     turned: 16.0,
 }
 

@@ -31,10 +31,10 @@ def machined(dice: Dice) -> TopoDS_Shape:
     """A box with planar machining features cut into several of its sides."""
     size = (2.0, 2 * dice.length(0.35, 1), 2 * dice.length(0.2, 1))
     body = centred_box(*size)
-    cuts = [_side_cut(dice, size) for _ in range(dice.randint(1, 4))]
+    cuts = [_side_cut(dice, size) for _ in range(dice.few(4, 0.6))]
     body = cut(body, *cuts)
-    if dice.chance(0.85):
-        body = add(dice, body, dice.few(4, 0.6), PLANAR)
+    if dice.chance(0.75):
+        body = add(dice, body, dice.few(4, 0.5), PLANAR)
     if dice.chance(0.1):
         body = soften_edges(dice, body, 0.0)
     return body
@@ -200,11 +200,11 @@ def cornered(dice: Dice) -> TopoDS_Shape:
 
 
 RECIPES = {
-    machined: 9.0,
+    machined: 7.0,
     stacked: 3.0,
     slanted: 2.0,
     crossed: 1.5,
-    frame_part: 2.0,
+    frame_part: 1.2,
     gable: 1.0,
     cornered: 1.5,
 }

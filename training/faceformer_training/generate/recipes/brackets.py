@@ -28,8 +28,8 @@ def angle_bracket(dice: Dice) -> TopoDS_Shape:
         )
         rib = placed(extrude(face(gusset), (0, 0, thick)), UPRIGHT)
         body = fuse(body, shifted(rib, (0, -(deep - thick) * dice.choice([0.5, 0.5, 0.2]), 0)))
-    body = add(dice, body, dice.few(4, 0.65))
-    return soften_edges(dice, body) if dice.chance(0.2) else body
+    body = add(dice, body, dice.few(3, 0.5)) if dice.chance(0.8) else body
+    return soften_edges(dice, body) if dice.chance(0.35) else body
 
 
 def bearing_block(dice: Dice) -> TopoDS_Shape:
@@ -64,7 +64,7 @@ def bearing_block(dice: Dice) -> TopoDS_Shape:
     if dice.chance(0.25):
         ring = cylinder(r * 0.98, wall_t * 0.3 + 0.2, axes((0, -wall_t / 2 + 0.2, up), (0, -1, 0)))
         body = cut(fuse(body, ring), bore)
-    return soften_edges(dice, body) if dice.chance(0.2) else body
+    return soften_edges(dice, body) if dice.chance(0.35) else body
 
 
 def clevis(dice: Dice) -> TopoDS_Shape:
@@ -125,7 +125,7 @@ def hook_strip(dice: Dice) -> TopoDS_Shape:
         x, y = outer[-1][0]
     chain = _chained(outer, left)
     body = placed(extrude(face(chain), (0, 0, wide)), UPRIGHT)
-    body = add(dice, body, dice.few(4, 0.5)) if dice.chance(0.7) else body
+    body = add(dice, body, dice.few(3, 0.4)) if dice.chance(0.5) else body
     if dice.chance(0.35):
         body = _round_corners(dice, body, thick, wide)
     return body
@@ -216,7 +216,7 @@ RECIPES = {
     angle_bracket: 3.0,
     bearing_block: 2.5,
     clevis: 1.2,
-    hook_strip: 3.0,
+    hook_strip: 3.5,
     tab_sheet: 1.0,
     half_clamp: 1.0,
     stand: 1.0,

@@ -5,7 +5,16 @@ import math
 from OCP.TopoDS import TopoDS, TopoDS_Shape
 
 from ..dice import Dice
-from ..dress import chamfer, edge_faces, fillet, hollow, open_shell, soften_edges, tangent
+from ..dress import (
+    chamfer,
+    dress_rims,
+    edge_faces,
+    fillet,
+    hollow,
+    open_shell,
+    soften_edges,
+    tangent,
+)
 from ..features import add
 from ..kernel import (
     Z,
@@ -21,7 +30,7 @@ from ..kernel import (
 )
 from ..kernel import frame as axes
 from ..outline import circle, face, polygon, rounded
-from ..sections import rectangle_points, section, soften
+from ..sections import POLYGONS, rectangle_points, round_section, section, soften
 from ..spots import flat
 from .turned import height
 
@@ -76,7 +85,39 @@ def soft_block(dice: Dice) -> TopoDS_Shape:
     else:
         body = soften_edges(dice, body)
         body = soften_edges(dice, body) if dice.chance(0.4) else body
-    return add(dice, body, dice.few(3, 0.45)) if dice.chance(0.5) else body
+    return add(dice, body, dice.few(2, 0.4)) if dice.chance(0.35) else body
+
+
+def cast(dice: Dice) -> TopoDS_Shape:
+    """A cast body: soft outline, rims rounded on one side or on both, bosses with rounded feet."""
+    if dice.chance(0.5):
+        points = dice.weighted(POLYGONS)(dice)
+        room = min(math.dist(points[i - 1], points[i]) for i in range(len(points)))
+        r = room * dice.uniform(0.2, 0.46)
+        outline = rounded(points, [r] * len(points))
+    else:
+        outline, r = round_section(dice), 0.25
+    h = dice.length(0.15, 1.5)
+    body = extrude(face(outline), (0, 0, h))
+    if dice.chance(0.25):
+        sides = [f for f in faces(body) if (p := flat(f)) is None or abs(p.normal[2]) < 0.5]
+        body = draft(body, sides, Z, math.radians(dice.uniform(2, 10)), (0, 0, 0))
+    ends = (1,) if dice.chance(0.6) else (1, -1)
+    rim = []
+    for end in ends:
+        side = next(
+            f for f in faces(body) if (p := flat(f)) is not None and end * p.normal[2] > 0.9
+        )
+        rim += [e for e, fs in edge_faces(body) if any(f.IsSame(side) for f in fs)]
+    q = min(0.9 * r, 0.45 * h) * dice.uniform(0.2, 0.9)
+    body = fillet(body, rim, q)
+    if dice.chance(0.3):
+        low = [f for f in faces(body) if (p := flat(f)) is not None and p.normal[2] < -0.9]
+        body = hollow(body, low, q * dice.uniform(0.3, 0.8)) if low else body
+    if dice.chance(0.4):
+        body = add(dice, body, dice.few(2, 0.4))
+        body = dress_rims(dice, body) if dice.chance(0.5) else body
+    return body
 
 
 def case(dice: Dice) -> TopoDS_Shape:
@@ -195,8 +236,9 @@ def cap(dice: Dice) -> TopoDS_Shape:
 RECIPES = {
     shelled: 2.5,
     drafted: 2.0,
-    soft_block: 4.0,
-    case: 1.5,
-    package: 2.5,
+    soft_block: 5.0,
+    cast: 5.0,
+    case: 1.0,
+    package: 1.5,
     cap: 1.2,
 }

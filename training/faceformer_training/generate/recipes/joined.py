@@ -43,7 +43,9 @@ def odd_union(dice: Dice) -> TopoDS_Shape:
         other = turned(other, dice.angle(), axis)
         by = [dice.uniform(-0.6, 0.6) for _ in range(3)]
         body = fuse(body, shifted(other, by))
-    return add(dice, body, 1) if dice.chance(0.35) else body
+    if dice.chance(0.2):
+        body = soften_edges(dice, body, 0.8)
+    return add(dice, body, 1) if dice.chance(0.25) else body
 
 
 def _piece(dice: Dice) -> TopoDS_Shape:
@@ -162,8 +164,8 @@ def _xs(body: TopoDS_Shape) -> list[float]:
 RECIPES = {
     odd_union: 4.0,
     cut_by_body: 1.5,
-    bent_rod: 2.0,
-    lofted: 0.8,
+    bent_rod: 3.0,
+    lofted: 1.5,
     tower: 2.5,
     mirrored_pair: 1.5,
 }

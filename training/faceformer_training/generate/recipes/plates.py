@@ -34,8 +34,8 @@ def plate(dice: Dice) -> TopoDS_Shape:
     """A plate of any outline, with corner holes or others, pockets and bosses."""
     thick = dice.length(0.06, 0.5)
     body = extrude(face(section(dice, 0.3)), (0, 0, thick))
-    body = add(dice, body, dice.few(5, 0.6))
-    if dice.chance(0.15):
+    body = add(dice, body, dice.few(4, 0.45))
+    if dice.chance(0.3):
         body = soften_edges(dice, body)
     return body
 
@@ -72,7 +72,7 @@ def corner_plate(dice: Dice) -> TopoDS_Shape:
     body = cut(body, *cuts) if cuts else body
     if dice.chance(0.6):
         body = add(dice, body, dice.few(2, 0.4))
-    if dice.chance(0.15):
+    if dice.chance(0.3):
         body = soften_edges(dice, body)
     return body
 
@@ -82,8 +82,8 @@ def profile_bar(dice: Dice) -> TopoDS_Shape:
     body = extrude(face(section(dice, 0.15)), (0, 0, dice.length(0.8, 5)))
     if dice.chance(0.2):
         body = cut(body, half_space((1.0, 1.0, 0.0), (dice.uniform(-0.5, 0.5), 0.3, -1), 0.4))
-    body = add(dice, body, dice.few(4, 0.55)) if dice.chance(0.75) else body
-    if dice.chance(0.15):
+    body = add(dice, body, dice.few(3, 0.45)) if dice.chance(0.6) else body
+    if dice.chance(0.3):
         body = soften_edges(dice, body)
     return body
 
@@ -125,8 +125,8 @@ def two_levels(dice: Dice) -> TopoDS_Shape:
         body = fuse(body, raised(spot, footprint(dice, spot.room), high))
         top += high
     if dice.chance(0.7):
-        body = add(dice, body, dice.few(3, 0.5))
-    if dice.chance(0.2):
+        body = add(dice, body, dice.few(2, 0.4))
+    if dice.chance(0.3):
         body = soften_edges(dice, body)
     return body
 
@@ -182,11 +182,11 @@ def _scaled(shape: TopoDS_Shape, factor: float) -> TopoDS_Shape:
 
 RECIPES = {
     plate: 4.0,
-    corner_plate: 3.0,
-    profile_bar: 3.0,
-    perforated: 1.2,
+    corner_plate: 2.0,
+    profile_bar: 4.0,
+    perforated: 0.7,
     two_levels: 3.0,
     lever: 1.2,
-    disc: 1.2,
+    disc: 0.7,
     fork: 1.5,
 }

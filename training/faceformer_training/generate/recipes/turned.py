@@ -130,8 +130,8 @@ def shaft(dice: Dice) -> TopoDS_Shape:
         body = _cross_features(dice, body)
     if dice.chance(0.2):
         body = add(dice, body, 1)
-    if dice.chance(0.12):
-        body = soften_edges(dice, body)
+    if dice.chance(0.25):
+        body = soften_edges(dice, body, 0.75)
     return body
 
 
@@ -203,7 +203,7 @@ def flange(dice: Dice) -> TopoDS_Shape:
     if dice.chance(0.25):
         cuts += _rim_cuts(dice)
     body = cut(body, *cuts)
-    if dice.chance(0.25):
+    if dice.chance(0.35):
         body = soften_edges(dice, body)
     if dice.chance(0.1):
         body = cut(body, centred_box(4, 4, 9, (0, 2, -4)))
@@ -355,12 +355,12 @@ def crossed_shaft(dice: Dice) -> TopoDS_Shape:
         )
     if long * 1.5 * math.sin(tilt) < 1.2:
         raise Refused("a branch that does not come out")
-    return body
+    return soften_edges(dice, body, 0.9) if dice.chance(0.3) else body
 
 
 RECIPES = {
-    shaft: 4.0,
-    flange: 4.0,
+    shaft: 5.0,
+    flange: 2.5,
     screw: 1.5,
     pulley: 1.2,
     ring_sector: 1.2,
