@@ -18,6 +18,7 @@ from scipy.spatial import cKDTree
 from tqdm import tqdm
 
 from .drawing import FACE_TYPES, Drawing, DrawingFormatError, Truth, read_drawings
+from .sight import flat_thickness, vector_area, walk
 
 VERTEX_DISTANCE = 2e-3
 EDGE_LENGTH = 1e-3
@@ -29,9 +30,9 @@ ON_PLANE = 2e-3
 CHORD = 3e-3
 """Largest sagitta between neighbouring pieces of a curve."""
 LEAST_AREA = 1e-6
-FAN_ERROR = 0.05
-"""How far below zero the estimated volume of a solid with curved faces may be: their bulge is
-unknown here. What is inside out and thinner than that goes unnoticed."""
+FAN_ERROR = 0.15
+"""How far below zero the estimated volume may be where no line of sight meets plane faces only:
+the bulge of curved faces is unknown here."""
 
 
 @dataclass(frozen=True)
@@ -241,8 +242,8 @@ def _faces(drawing: Drawing, truth: Truth) -> Iterator[Fault]:
     total = volume = 0.0
     for number, face in enumerate(truth.faces, 1):
         where = f"face {number}"
-        areas = [_drawn_area(_walk(loop, [e.points for e in drawing.edges])) for loop in face.loops]
-        boundary = [_walk(loop, truth.edges3d) for loop in face.loops]
+        areas = [_drawn_area(walk(loop, [e.points for e in drawing.edges])) for loop in face.loops]
+        boundary = [walk(loop, truth.edges3d) for loop in face.loops]
         area = sum(areas)
         total += area
         volume += _fan_volume(boundary)
@@ -254,23 +255,13 @@ def _faces(drawing: Drawing, truth: Truth) -> Iterator[Fault]:
             yield from _sphere(np.vstack(boundary), where)
     if abs(total) > 1e-4:
         yield Fault("areas", f"front and back differ by {total:.2g}")
-    all_flat = all(face.type == "plane" for face in truth.faces)
-    if volume < (0.0 if all_flat else -FAN_ERROR):
-        yield Fault("inside out", f"volume about {volume:.2g}")
-
-
-def _walk(loop: list[int], polylines: list[np.ndarray]) -> np.ndarray:
-    """The closed polyline of a loop, its first point once more at the end."""
-    pieces = [polylines[abs(k) - 1][:: 1 if k > 0 else -1] for k in loop]
-    return np.vstack([pieces[0], *(piece[1:] for piece in pieces[1:])])
+    thickness = flat_thickness(drawing, truth)
+    if (thickness is None and volume < -FAN_ERROR) or (thickness is not None and thickness < 0):
+        yield Fault("inside out", f"volume about {volume:.2g}, thickness {thickness}")
 
 
 def _drawn_area(p: np.ndarray) -> float:
     return 0.5 * float((p[:-1, 0] * p[1:, 1] - p[1:, 0] * p[:-1, 1]).sum())
-
-
-def _vector_area(p: np.ndarray) -> np.ndarray:
-    return 0.5 * np.cross(p[:-1] - p[0], p[1:] - p[0]).sum(0)
 
 
 def _fan_volume(boundary: list[np.ndarray]) -> float:
@@ -283,7 +274,7 @@ def _fan_volume(boundary: list[np.ndarray]) -> float:
 
 
 def _plane(boundary, areas: list[float], perspective: bool, where: str) -> Iterator[Fault]:
-    area = sum(_vector_area(p) for p in boundary)
+    area = sum(vector_area(p) for p in boundary)
     size = float(np.linalg.norm(area))
     if size < LEAST_AREA:
         yield Fault("no area", where)
