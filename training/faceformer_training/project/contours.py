@@ -20,6 +20,9 @@ from .mesh import FaceMesh
 from .surfaces import FaceSurface
 from .views import View
 
+ROOT = 1e-7
+"""What counts as zero of normal . view on a surface evaluated by OCCT."""
+
 
 @dataclass
 class Contour:
@@ -130,7 +133,7 @@ def contour_polyline(
     if surface.label == "sphere":
         crossings = surface.evaluate(np.vstack([start, end]))[0]
         return _sphere_arc(surface, view, crossings, contour.closed, chord_error)
-    return _free_contour(surface, mesh, view, contour, start, chord_error)
+    return _free_contour(surface, mesh, view, contour, start, end, chord_error)
 
 
 def _roots(surface: FaceSurface, view: View, a: np.ndarray, b: np.ndarray) -> np.ndarray:
@@ -139,23 +142,26 @@ def _roots(surface: FaceSurface, view: View, a: np.ndarray, b: np.ndarray) -> np
     Where the two ends have one sign after all (a sign taken from a neighbour, or rounding),
     the end nearer to zero stands for the root.
     """
-    value_a, value_b = (view.facing(*surface.evaluate(end)) for end in (a, b))
+    ends = view.facing(*surface.evaluate(np.vstack([a, b])))
+    at_low, at_high = ends[: len(a)].copy(), ends[len(a) :].copy()
+    t = np.where(np.abs(at_low) <= np.abs(at_high), 0.0, 1.0)
     low, high = np.zeros(len(a)), np.ones(len(a))
-    at_low, at_high = value_a.copy(), value_b.copy()
-    bracketed = (value_a >= 0) != (value_b >= 0)
-    for _ in range(12):
-        span = at_low - at_high
-        share = np.where(np.abs(span) > 1e-300, at_low / np.where(span == 0, 1, span), 0.5)
-        t = low + np.clip(share, 0.02, 0.98) * (high - low)
-        value = view.facing(*surface.evaluate(a + t[:, None] * (b - a)))
-        left = (value >= 0) == (at_low >= 0)
-        at_high = np.where(left, 0.5 * at_high, value)
-        at_low = np.where(left, value, 0.5 * at_low)
-        low, high = np.where(left, t, low), np.where(left, high, t)
-        if float(np.abs(value[bracketed]).max(initial=0.0)) < 1e-9:
+    active = np.flatnonzero((at_low >= 0) != (at_high >= 0))
+    for _ in range(20):
+        if not len(active):
             break
-    nearest = np.where(np.abs(value_a) <= np.abs(value_b), 0.0, 1.0)
-    t = np.where(bracketed, t, nearest)
+        share = at_low[active] / (at_low[active] - at_high[active])
+        share = np.clip(share, 0.01, 0.99)
+        t[active] = low[active] + share * (high[active] - low[active])
+        inner = a[active] + t[active, None] * (b[active] - a[active])
+        value = view.facing(*surface.evaluate(inner))
+        left = (value >= 0) == (at_low[active] >= 0)
+        lefts, rights = active[left], active[~left]
+        low[lefts], at_low[lefts] = t[lefts], value[left]
+        at_high[lefts] *= 0.5
+        high[rights], at_high[rights] = t[rights], value[~left]
+        at_low[rights] *= 0.5
+        active = active[np.abs(value) > ROOT]
     return a + t[:, None] * (b - a)
 
 
@@ -188,8 +194,14 @@ def _sphere_arc(
     return centre + radius * (np.cos(along)[:, None] * x + np.sin(along)[:, None] * y)
 
 
-def _free_contour(surface, mesh, view, contour, start, chord_error) -> np.ndarray:
-    ends = _roots(surface, view, mesh.uv[contour.exits[:, 0]], mesh.uv[contour.exits[:, 1]])
+def _free_contour(surface, mesh, view, contour, start, end, chord_error) -> np.ndarray:
+    """Crossings of the mesh edges, and between them points brought onto the contour."""
+    ends = np.vstack([start[1:], end])
+    # Where a contour crosses a seam, it leaves one triangle elsewhere than it enters the next.
+    jumps = np.flatnonzero((np.sort(contour.exits[:-1]) != np.sort(contour.entries[1:])).any(1))
+    if len(jumps):
+        sides = (mesh.uv[contour.exits[jumps, i]] for i in (0, 1))
+        ends[jumps] = _roots(surface, view, *sides)
     scale = np.maximum(np.ptp(mesh.uv, axis=0), 1e-12)
     pieces = len(start)
     parts = max(2, -(-(LEAST_POINTS - 1) // pieces))
@@ -207,23 +219,31 @@ def _free_contour(surface, mesh, view, contour, start, chord_error) -> np.ndarra
 
 
 def _onto_contour(surface, view, uv: np.ndarray, scale: np.ndarray) -> np.ndarray:
-    """Newton steps along the gradient of normal . view, (u, v) scaled to the face's extent."""
+    """Steps along the gradient of normal . view, (u, v) scaled to the face's extent.
+
+    One gradient a point, then chords (a simplified Newton's method): evaluating the surface is
+    what costs. A point that gets no nearer to zero stays where it was.
+    """
     step = 1e-5
-    begin = np.abs(view.facing(*surface.evaluate(uv)))
+    stack = np.vstack([uv, uv + [step * scale[0], 0], uv + [0, step * scale[1]]])
+    value, plus_u, plus_v = view.facing(*surface.evaluate(stack)).reshape(3, -1)
+    gradient = np.stack([plus_u - value, plus_v - value], axis=1) / step
+    square = (gradient * gradient).sum(1)
+    inverse = (gradient / np.where(square > 1e-18, square, np.inf)[:, None]) * scale
+    best, best_value = uv.copy(), np.abs(value)
     moved = uv.copy()
-    for _ in range(3):
-        stack = np.vstack([moved, moved + [step * scale[0], 0], moved + [0, step * scale[1]]])
-        value, plus_u, plus_v = view.facing(*surface.evaluate(stack)).reshape(3, -1)
-        gradient = np.stack([plus_u - value, plus_v - value], axis=1) / step
-        square = (gradient * gradient).sum(1)
-        length = -value / np.where(square > 1e-18, square, 1.0)
-        moved = moved + length[:, None] * gradient * scale
-        if np.abs(value).max() < 1e-7:
+    active = np.flatnonzero(best_value > ROOT)
+    for _ in range(5):
+        if not len(active):
             break
-    after = np.abs(view.facing(*surface.evaluate(moved)))
-    lost = (after > begin + 1e-9) | (np.abs((moved - uv) / scale).max(1) > 0.3)
-    moved[lost] = uv[lost]
-    return moved
+        moved[active] -= value[active, None] * inverse[active]
+        value[active] = view.facing(*surface.evaluate(moved[active]))
+        inside = np.abs((moved[active] - uv[active]) / scale).max(1) < 0.3
+        better = inside & (np.abs(value[active]) < best_value[active])
+        active = active[better]
+        best[active], best_value[active] = moved[active], np.abs(value[active])
+        active = active[best_value[active] > ROOT]
+    return best
 
 
 def thinned(points: np.ndarray, tolerance: float) -> np.ndarray:

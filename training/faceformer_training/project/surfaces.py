@@ -29,7 +29,7 @@ from .errors import require
 
 def xyz(item) -> tuple[float, float, float]:
     """Coordinates of a gp point, vector or direction."""
-    return item.X(), item.Y(), item.Z()
+    return item.Coord()
 
 
 @dataclass
@@ -65,10 +65,9 @@ class Quadric:
             return cls(kind, *frame, radius=shape.MinorRadius(), major=shape.MajorRadius())
         return cls(kind, *frame, radius=shape.Radius())
 
-    @property
-    def hand(self) -> float:
-        """1 for a right-handed axis system, -1 for a left-handed one."""
-        return float(np.sign(np.dot(np.cross(self.x, self.y), self.z)))
+    def __post_init__(self) -> None:
+        # 1 for a right-handed axis system, -1 for a left-handed one.
+        self.hand = float(np.sign(np.dot(np.cross(self.x, self.y), self.z)))
 
     def evaluate(self, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Points and unit ``du x dv`` at (n, 2) parameters, both (n, 3)."""
@@ -176,27 +175,32 @@ class FaceSurface:
         return np.array([xyz(value(u, v)) for u, v in uv.tolist()]).reshape(-1, 3)
 
     def _evaluate_free(self, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        points = np.empty((len(uv), 3))
-        normals = np.empty((len(uv), 3))
-        for row, (u, v) in enumerate(uv.tolist()):
-            points[row], normals[row] = self._derivatives(u, v)
-        length = np.linalg.norm(normals, axis=1)
+        points, normals = self._derivatives(uv)
+        length = np.sqrt((normals * normals).sum(1))
         for row in np.flatnonzero(length < 1e-9).tolist():
             # At a pole one derivative vanishes: the limit from inside the face stands for it.
             for step in (1e-4, 1e-3, 1e-2):
                 near = uv[row] + step * (self._middle - uv[row])
-                normals[row] = self._derivatives(*near.tolist())[1]
+                normals[row] = self._derivatives(near[None])[1][0]
                 length[row] = np.linalg.norm(normals[row])
                 if length[row] > 1e-9:
                     break
         require(bool((length > 1e-12).all()), "no-normal")
         return points, normals / length[:, None]
 
-    def _derivatives(self, u: float, v: float) -> tuple[tuple, np.ndarray]:
+    def _derivatives(self, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Points and du x dv, not of unit length. The innermost loop of the whole projection."""
         point, du, dv = gp_Pnt(), gp_Vec(), gp_Vec()
-        self._adaptor.D1(u, v, point, du, dv)
-        (a, b, c), (d, e, f) = xyz(du), xyz(dv)
-        return xyz(point), np.array((b * f - c * e, c * d - a * f, a * e - b * d))
+        d1 = self._adaptor.D1
+        flat: list[float] = []
+        for u, v in uv.tolist():
+            d1(u, v, point, du, dv)
+            flat += point.Coord()
+            flat += du.Coord()
+            flat += dv.Coord()
+        p, a, b = np.array(flat).reshape(-1, 3, 3).transpose(1, 0, 2)
+        normal = a[:, [1, 2, 0]] * b[:, [2, 0, 1]] - a[:, [2, 0, 1]] * b[:, [1, 2, 0]]
+        return p, normal
 
 
 def _recognise(face: TopoDS_Face, tolerance: float) -> Quadric | None:
