@@ -128,7 +128,8 @@ def finish(body: TopoDS_Shape, limits: Limits) -> Finished:
     lengths = [length(e) for e in all_edges if not BRep_Tool.Degenerated_s(e)]
     if not lengths or min(lengths) < SHORTEST_EDGE:
         raise Refused("an edge too short")
-    tolerance = max(BRep_Tool.Tolerance_s(e) for e in all_edges)
+    corners = [TopoDS.Vertex_s(v) for v in explore(solid, TopAbs_ShapeEnum.TopAbs_VERTEX)]
+    tolerance = max(BRep_Tool.Tolerance_s(s) for s in (*all_edges, *corners))
     if tolerance > LARGEST_TOLERANCE:
         raise Refused("a tolerance too large")
     check_closed(solid)

@@ -264,8 +264,8 @@ POLYGONS = {
     convex: 1.0,
     star: 0.4,
 }
-ROUND = {"disc": 2.0, "slot": 1.5, "link": 1.2, "chord": 1.2, "sector": 1.0, "ellipse": 0.8}
-FREE = {arched: 1.2, lens: 0.8, blob: 1.2}
+ROUND = {"disc": 2.0, "slot": 1.5, "link": 1.2, "chord": 1.2, "sector": 1.0, "ellipse": 1.3}
+FREE = {arched: 1.2, lens: 0.8, blob: 2.0}
 
 
 def round_section(dice: Dice) -> Outline | Ellipse:

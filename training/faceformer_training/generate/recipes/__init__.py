@@ -16,12 +16,12 @@ Recipe = Callable[[Dice], TopoDS_Shape]
 # Share of each family; within it, its own table decides.
 FAMILIES = {
     basic: 22.0,
-    blocks: 16.0,
-    brackets: 11.0,
-    housings: 18.0,
-    joined: 11.0,
+    blocks: 20.0,
+    brackets: 12.0,
+    housings: 16.0,
+    joined: 12.0,
     plates: 13.0,
-    turned: 16.0,
+    turned: 15.0,
 }
 
 

@@ -165,7 +165,7 @@ RECIPES = {
     odd_union: 4.0,
     cut_by_body: 1.5,
     bent_rod: 3.0,
-    lofted: 1.5,
+    lofted: 2.5,
     tower: 2.5,
     mirrored_pair: 1.5,
 }

@@ -330,6 +330,27 @@ def pulley(dice: Dice) -> TopoDS_Shape:
     return body
 
 
+def spun(dice: Dice) -> TopoDS_Shape:
+    """A knob, vase or handle: a free curve turned about the axis, whole or by a part."""
+    h, bore = dice.length(0.6, 3), 0.0 if dice.chance(0.6) else dice.uniform(0.08, 0.25)
+    n = dice.randint(1, 3)
+    radii = [dice.uniform(0.35, 1.0) for _ in range(n + 2)]
+    via = [(r, h * (i + 1) / (n + 1)) for i, r in enumerate(radii[1:-1])]
+    chain = Outline((bore, 0.0)).line(radii[0], 0.0)
+    if dice.chance(0.3):
+        chain = Outline((bore, -0.15 * h)).line(radii[0], -0.15 * h).line(radii[0], 0.0)
+    chain.spline(via, (radii[-1], h))
+    if dice.chance(0.4):
+        chain.line(radii[-1], h * 1.2).line(bore, h * 1.2)
+    else:
+        chain.line(bore, h)
+    angle = dice.part(0.2, 0.8) * 2 * math.pi if dice.chance(0.25) else 0
+    body = revolve(placed(face(chain), UPRIGHT), angle=angle)
+    if dice.chance(0.25):
+        body = _cross_features(dice, body)
+    return add(dice, body, 1) if dice.chance(0.25) else body
+
+
 def ring_sector(dice: Dice) -> TopoDS_Shape:
     """A section turned about an axis outside of it, by a part of a turn: bends and segments."""
     shape = placed(face(section(dice, 0.4)), axes((1.3 + dice.length(0.1, 2), 0, 0), (0, -1, 0), X))
@@ -364,5 +385,6 @@ RECIPES = {
     screw: 1.5,
     pulley: 1.2,
     ring_sector: 1.2,
+    spun: 1.6,
     crossed_shaft: 0.8,
 }
