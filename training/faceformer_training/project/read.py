@@ -21,6 +21,7 @@ from OCP.BinTools import BinTools
 from OCP.BRep import BRep_Builder
 from OCP.BRepTools import BRepTools
 from OCP.IFSelect import IFSelect_RetDone
+from OCP.Standard import Standard_Failure
 from OCP.STEPControl import STEPControl_Reader
 from OCP.TopAbs import TopAbs_SOLID
 from OCP.TopExp import TopExp
@@ -169,8 +170,10 @@ def _through_file(data: bytes, suffix: str) -> TopoDS_Shape:
     with tempfile.NamedTemporaryFile(suffix=suffix) as file:
         file.write(data)
         file.flush()
-        shape = _READERS[suffix](file.name)
-    return shape
+        try:
+            return _READERS[suffix](file.name)
+        except Standard_Failure as error:
+            raise ProjectionError("unreadable", f"{type(error).__name__}: {error}") from error
 
 
 def _read_step(path: str) -> TopoDS_Shape:

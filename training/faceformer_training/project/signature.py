@@ -84,7 +84,8 @@ def family_key(solid: PreparedSolid) -> str:
 
 def views_key(solid: PreparedSolid) -> str:
     """Key of the three orthogonal views."""
-    dense = np.vstack([_dense(line) for line in _lines(solid)])
+    # A whole sphere or torus has no lines at all.
+    dense = np.vstack([np.zeros((0, 3)), *(_dense(line) for line in _lines(solid))])
     cells = np.floor(dense / CELL + GRID / 2).astype(int).clip(0, GRID - 1)
     images = []
     for a, b in ((0, 1), (1, 2), (2, 0)):
