@@ -24,7 +24,7 @@ from faceformer_training.generate.features import KINDS, add
 from faceformer_training.generate.finish import Limits, check_closed, finish
 from faceformer_training.generate.kernel import Refused, box, cut, cylinder, frame, fuse, shifted
 from faceformer_training.generate.outline import circle, face, polygon, rounded
-from faceformer_training.generate.recipes import names
+from faceformer_training.generate.recipes import draw, name_of, names
 from faceformer_training.generate.sections import FREE, POLYGONS, rectangle_points, section
 from faceformer_training.generate.solid import attempt, attempts
 from faceformer_training.generate.spots import Board
@@ -41,6 +41,11 @@ def test_a_solid_depends_on_seed_and_number_only():
     other = [finished(3, k) for k in (2, 4)][::-1]
     assert [packed(a.solid.shape) for a in one] == [packed(b.solid.shape) for b in other]
     assert one[0].solid.signature != finished(4, 4).solid.signature
+
+
+def test_a_mix_has_its_own_recipes():
+    drawn = {name_of(draw(Dice(f"mix/{k}"), "curved")) for k in range(200)}
+    assert not [n for n in drawn if n.startswith("blocks")] and len(drawn) > 15
 
 
 def test_finished_solids_are_valid_centred_and_scaled():
@@ -171,7 +176,7 @@ def test_holes_in_a_face_are_holes():
 @pytest.mark.slow
 @pytest.mark.parametrize("recipe", names())
 def test_every_recipe_succeeds_more_often_than_not(recipe):
-    results = [attempt(11, k, 0, Limits(), recipe) for k in range(12)]
+    results = [attempt(11, k, 0, Limits(), recipe=recipe) for k in range(12)]
     assert sum(r.solid is not None for r in results) >= 5
     assert not [r.reason for r in results if r.reason and r.reason.startswith("a fault")]
 
@@ -233,7 +238,7 @@ def test_the_command_resumes_and_shards(tmp_path):
 @pytest.mark.slow
 def test_a_draw_over_the_time_limit_is_killed_and_counted(monkeypatch):
     monkeypatch.setattr(workers, "MOST_ATTEMPTS", 2)
-    with Pool(1, Limits(), 1, 0.0) as pool:
+    with Pool(1, Limits(), "real", 1, 0.0) as pool:
         (result,) = pool.run([0])
     assert result.data is None
     assert result.reasons == [TIMED_OUT, TIMED_OUT, GIVEN_UP]

@@ -1,6 +1,8 @@
 """The Faceformer release's JSON: a file in that form, and drawings there and back."""
 
 import json
+import subprocess
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -134,3 +136,25 @@ def test_the_command_both_ways(tmp_path):
 def test_a_drawing_of_another_form_is_refused(tmp_path):
     (tmp_path / "x.json").write_text("{}")
     assert release.main([str(tmp_path), str(tmp_path / "out.jsonl")]) == 2
+
+
+COMMAND = Path(__file__).parents[2] / "target/release/faceformer"
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not COMMAND.exists(), reason="the command line is not built")
+def test_the_command_line_reads_what_is_written(tmp_path):
+    sample = Path(__file__).parents[2] / "tests/corpus/sample.jsonl.zst"
+    assert release.main([str(sample), str(tmp_path / "files")]) == 0
+    assert release.main([str(tmp_path / "files"), str(tmp_path / "back.jsonl.zst")]) == 0
+
+    def figures(data) -> dict:
+        run = [str(COMMAND), "eval", str(data), "--faces", "truth", "--json"]
+        return json.loads(subprocess.run(run, check=True, capture_output=True).stdout)
+
+    before, after = figures(sample), figures(tmp_path / "back.jsonl.zst")
+    for key in ("drawings", "faces", "precision", "recall", "type_rate", "exact", "loops_exact"):
+        assert after[key] == before[key]
+    one = next((tmp_path / "files").iterdir())
+    solid = [str(COMMAND), "solid", str(one), "--faces", "truth", "-o", str(tmp_path / "x.step")]
+    subprocess.run(solid, check=True)

@@ -9,6 +9,7 @@ from tqdm import tqdm
 
 from .archive import ArchiveWriter, index_path
 from .finish import Limits
+from .recipes import MIXES
 from .workers import Pool
 
 DUPLICATE = "the same as an earlier solid"
@@ -31,6 +32,9 @@ def parser() -> argparse.ArgumentParser:
     p.add_argument("count", type=int, metavar="N", help="number of solids, over all shards")
     p.add_argument("out", type=Path, metavar="OUT.tar")
     p.add_argument("--seed", type=int, default=0, help="default 0")
+    p.add_argument(
+        "--mix", choices=MIXES, default=MIXES[0], help="like real parts (default), or curved only"
+    )
     p.add_argument("--shard", type=shard, default=(1, 1), metavar="i/n", help="every n-th, from i")
     p.add_argument("--jobs", type=int, default=1, help="worker processes (default 1)")
     p.add_argument(
@@ -49,11 +53,11 @@ def main(arguments: list[str] | None = None) -> int:
     limits = Limits(faces=a.max_faces)
     with (
         ArchiveWriter(a.out) as archive,
-        Pool(a.seed, limits, a.jobs, a.seconds) as pool,
+        Pool(a.seed, limits, a.mix, a.jobs, a.seconds) as pool,
         tqdm(total=len(numbers), unit=" solids", disable=None) as bar,
     ):
-        if any(r["seed"] != a.seed for r in archive.records):
-            parser().error(f"{a.out} is there already, made with another seed")
+        if any((r["seed"], r["mix"]) != (a.seed, a.mix) for r in archive.records):
+            parser().error(f"{a.out} is there already, made with another seed or mix")
         seen = {r["hash"] for r in archive.records}
         # Numbers are written in order; what was given up before stays so.
         after = archive.records[-1]["n"] if archive.records else -1
@@ -68,7 +72,7 @@ def main(arguments: list[str] | None = None) -> int:
                 reasons[DUPLICATE] += 1
                 continue
             seen.add(result.record["hash"])
-            record = {"source": "generated", "seed": a.seed, **result.record}
+            record = {"source": "generated", "seed": a.seed, "mix": a.mix, **result.record}
             archive.add(f"{result.k:05d}.bin.zst", result.data, record)
         kept = len(archive.records)
     print(f"{kept} solids in {a.out}, index {index_path(a.out)}", file=sys.stderr)

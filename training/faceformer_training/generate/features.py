@@ -345,4 +345,4 @@ def add(dice: Dice, body: TopoDS_Shape, count: int, kinds: dict | None = None) -
     for _ in range(count):
         tools.extend(dice.weighted(kinds or KINDS)(dice, board.spot(dice)))
     body = tools.apply(body)
-    return dress_rims(dice, body) if kinds is not PLANAR and dice.chance(0.15) else body
+    return dress_rims(dice, body) if kinds is not PLANAR and dice.chance(0.2) else body

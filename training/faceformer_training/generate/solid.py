@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from .dice import Dice
 from .finish import Finished, Limits, finish
 from .kernel import Refused, from_kernel
-from .recipes import draw, names
+from .recipes import draw, name_of, names
 
 # A recipe is refused about one time in three, so this many in a row do not happen by chance.
 MOST_ATTEMPTS = 60
@@ -22,11 +22,13 @@ class Attempt:
     reason: str | None
 
 
-def attempt(seed: int, k: int, number: int, limits: Limits, recipe: str | None = None) -> Attempt:
+def attempt(
+    seed: int, k: int, number: int, limits: Limits, mix: str = "real", recipe: str | None = None
+) -> Attempt:
     """Draw ``number`` of solid ``k``; it depends on these alone. ``recipe`` fixes the recipe."""
     dice = Dice(f"{seed}/{k}/{number}")
-    make = names()[recipe] if recipe else draw(dice)
-    name = f"{make.__module__.rpartition('.')[2]}.{make.__name__}"
+    make = names()[recipe] if recipe else draw(dice, mix)
+    name = name_of(make)
     try:
         return Attempt(name, finish(make(dice), limits), None)
     except Refused as refused:
@@ -39,10 +41,12 @@ def attempt(seed: int, k: int, number: int, limits: Limits, recipe: str | None =
         return Attempt(name, None, f"a fault in {name}: {fault!r}")
 
 
-def attempts(seed: int, k: int, limits: Limits, first: int = 0) -> Iterator[Attempt]:
+def attempts(
+    seed: int, k: int, limits: Limits, mix: str = "real", first: int = 0
+) -> Iterator[Attempt]:
     """The draws of solid ``k`` from number ``first`` on, up to the first that succeeds."""
     for number in range(first, MOST_ATTEMPTS):
-        result = attempt(seed, k, number, limits)
+        result = attempt(seed, k, number, limits, mix)
         yield result
         if result.solid is not None:
             return

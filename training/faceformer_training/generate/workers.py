@@ -43,11 +43,11 @@ class _Worker:
     reasons: list[str] = field(default_factory=list)
 
 
-def serve(pipe: Connection, seed: int, limits: Limits) -> None:
+def serve(pipe: Connection, seed: int, limits: Limits, mix: str) -> None:
     """A worker's life: (k, first attempt) in; one message an attempt out; None ends it."""
     while (task := pipe.recv()) is not None:
         k, first = task
-        for number, result in enumerate(attempts(seed, k, limits, first), first):
+        for number, result in enumerate(attempts(seed, k, limits, mix, first), first):
             if result.solid is None:
                 pipe.send((None, None, result.reason))
                 continue
@@ -66,18 +66,16 @@ def serve(pipe: Connection, seed: int, limits: Limits) -> None:
 
 
 class Pool:
-    """``jobs`` workers that draw solids of one seed; ``seconds`` is the limit of one attempt."""
+    """``jobs`` workers that draw solids of one seed and mix, each attempt within ``seconds``."""
 
-    def __init__(self, seed: int, limits: Limits, jobs: int, seconds: float) -> None:
-        self.seed, self.limits, self.seconds = seed, limits, seconds
+    def __init__(self, seed: int, limits: Limits, mix: str, jobs: int, seconds: float) -> None:
+        self.drawn_from, self.seconds = (seed, limits, mix), seconds
         self.context = multiprocessing.get_context("spawn")
         self.workers = [self._start() for _ in range(jobs)]
 
     def _start(self) -> _Worker:
         ours, theirs = self.context.Pipe()
-        process = self.context.Process(
-            target=serve, args=(theirs, self.seed, self.limits), daemon=True
-        )
+        process = self.context.Process(target=serve, args=(theirs, *self.drawn_from), daemon=True)
         process.start()
         theirs.close()
         return _Worker(process, ours)

@@ -23,17 +23,46 @@ FAMILIES = {
     plates: 13.0,
     turned: 15.0,
 }
+# Parts with smooth edges, cones, tori and spheres: what a network sees too little of.
+CURVED = {
+    basic.ball: 1.0,
+    basic.frustum: 0.7,
+    basic.nut_blank: 0.7,
+    basic.pin: 0.7,
+    basic.ring: 0.7,
+    brackets.bearing_block: 1.0,
+    brackets.hook_strip: 1.0,
+    housings.cap: 1.5,
+    housings.cast: 5.0,
+    housings.drafted: 3.0,
+    housings.shelled: 1.0,
+    housings.soft_block: 4.0,
+    joined.bent_rod: 2.5,
+    joined.lofted: 1.0,
+    joined.odd_union: 1.5,
+    plates.lever: 1.0,
+    turned.crossed_shaft: 1.5,
+    turned.flange: 1.5,
+    turned.pulley: 1.0,
+    turned.ring_sector: 1.0,
+    turned.screw: 1.5,
+    turned.shaft: 5.0,
+    turned.spun: 1.5,
+}
+MIXES = ("real", "curved")
 
 
-def draw(dice: Dice) -> Recipe:
-    """One recipe, by the families' weights and their own."""
+def draw(dice: Dice, mix: str = "real") -> Recipe:
+    """One recipe of a mix: ``real`` is like real parts, ``curved`` has curved ones only."""
+    if mix == "curved":
+        return dice.weighted(CURVED)
     return dice.weighted(dice.weighted(FAMILIES).RECIPES)
 
 
 def names() -> dict[str, Recipe]:
     """All recipes by name, ``family.recipe``."""
-    return {
-        f"{family.__name__.rpartition('.')[2]}.{recipe.__name__}": recipe
-        for family in FAMILIES
-        for recipe in family.RECIPES
-    }
+    return {name_of(recipe): recipe for family in FAMILIES for recipe in family.RECIPES}
+
+
+def name_of(recipe: Recipe) -> str:
+    return f"{recipe.__module__.rpartition('.')[2]}.{recipe.__name__}"
