@@ -5,6 +5,9 @@ A reason code is a short stable word that a run's report counts; the detail is f
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 
 class ProjectionError(Exception):
     """A solid that gives no drawing. ``code`` is one of the codes in ``REASONS``."""
@@ -60,3 +63,15 @@ def require(condition: bool, code: str, detail: str = "") -> None:
     """Raise ``ProjectionError(code, detail)`` unless the condition holds."""
     if not condition:
         raise ProjectionError(code, detail)
+
+
+@contextmanager
+def kernel_errors(code: str = "kernel") -> Iterator[None]:
+    """Turn OCCT's exceptions into a ``ProjectionError`` with this code; let others through."""
+    try:
+        yield
+    except Exception as error:
+        # Not all of OCCT's exceptions are bound as kinds of Standard_Failure.
+        if not type(error).__module__.startswith("OCP."):
+            raise
+        raise ProjectionError(code, f"{type(error).__name__}: {error}".rstrip(": ")) from error

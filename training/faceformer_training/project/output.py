@@ -57,7 +57,7 @@ class RunOutput:
         self.splits: Counter[str] = Counter()
         self.families: set[str] = set()
         self.seconds = 0.0
-        self._work = 0.0
+        self._cpu = 0.0
         state = None if restart else self._load()
         self.done = 0 if state is None else state["done"]
         lengths: dict[str, int | None] = {} if state is None else state["lengths"]
@@ -110,7 +110,7 @@ class RunOutput:
 
     def _count(self, row: dict[str, Any]) -> None:
         self.outcomes[row["outcome"]] += 1
-        self._work += row["seconds"]
+        self._cpu += row["cpu_seconds"]
         if "shape" in row and row["outcome"] == "ok":
             self._shapes.add(row["shape"])
             self._views.add(row["views"])
@@ -158,8 +158,9 @@ class RunOutput:
             "families": len(self.families),
             "drawings_by_split": dict(self.splits),
             "wall_seconds": round(self.seconds, 1),
-            "work_seconds": round(self._work, 1),
+            "cpu_seconds": round(self._cpu, 1),
             "drawings_per_second": round(drawings / self.seconds, 2) if self.seconds else None,
+            "drawings_per_cpu_second": round(drawings / self._cpu, 2) if self._cpu else None,
         }
 
     def close(self) -> None:

@@ -21,7 +21,6 @@ from OCP.BinTools import BinTools
 from OCP.BRep import BRep_Builder
 from OCP.BRepTools import BRepTools
 from OCP.IFSelect import IFSelect_RetDone
-from OCP.Standard import Standard_Failure
 from OCP.STEPControl import STEPControl_Reader
 from OCP.TopAbs import TopAbs_SOLID
 from OCP.TopExp import TopExp
@@ -29,7 +28,7 @@ from OCP.TopLoc import TopLoc_Location
 from OCP.TopoDS import TopoDS, TopoDS_Shape, TopoDS_Solid
 from OCP.TopTools import TopTools_IndexedMapOfShape
 
-from .errors import ProjectionError, require
+from .errors import ProjectionError, kernel_errors, require
 
 SOLID_FILE = re.compile(r"\.(step|stp|brep|brp|bin|fcstd)(\.zst)?$", re.IGNORECASE)
 ARCHIVE = re.compile(r"\.(tar|tgz|tar\.(gz|bz2|xz|zst))$", re.IGNORECASE)
@@ -170,10 +169,8 @@ def _through_file(data: bytes, suffix: str) -> TopoDS_Shape:
     with tempfile.NamedTemporaryFile(suffix=suffix) as file:
         file.write(data)
         file.flush()
-        try:
+        with kernel_errors("unreadable"):
             return _READERS[suffix](file.name)
-        except Standard_Failure as error:
-            raise ProjectionError("unreadable", f"{type(error).__name__}: {error}") from error
 
 
 def _read_step(path: str) -> TopoDS_Shape:

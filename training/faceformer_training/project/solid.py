@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import contextmanager
 
 import numpy as np
-from OCP.Standard import Standard_Failure
 from OCP.TopoDS import TopoDS_Shape
 from scipy.spatial import cKDTree
 
 from ..drawing import DECIMALS, Drawing, Edge, Face, Truth
 from .brep import Brep
-from .errors import ProjectionError, ViewError, require
+from .errors import ProjectionError, ViewError, kernel_errors, require
 from .merge import Wireframe
 from .normalise import normalise, volume
 from .options import ProjectOptions
@@ -21,15 +19,6 @@ from .views import ISOMETRIC, View, isometric_view, random_view
 
 ROUNDING = 5e-5
 """Margin over the least distances, so that rounded coordinates still keep them."""
-
-
-@contextmanager
-def kernel_errors() -> Iterator[None]:
-    """Turn OCCT's exceptions into ``ProjectionError("kernel")``."""
-    try:
-        yield
-    except Standard_Failure as error:
-        raise ProjectionError("kernel", f"{type(error).__name__}: {error}") from error
 
 
 class PreparedSolid:
@@ -55,7 +44,7 @@ class PreparedSolid:
         """
         self._refuse_early(view, tilt)
         with kernel_errors():
-            split = split_solid(self.brep, view)
+            split = split_solid(self.brep, view, lambda points: self._refuse_near(view, points))
             wireframe = Wireframe(self.brep, split)
         return self._drawing(view, split, wireframe, name, source)
 
@@ -112,8 +101,10 @@ class PreparedSolid:
         facing = view.facing(self.brep.plane_points, self.brep.plane_normals)
         if len(facing) and float(np.abs(facing).min()) <= tilt:
             raise ViewError("view-edge-on")
-        drawn = view.draw(view.camera(self.brep.vertices[self.brep.firm]))
-        self._refuse_coincident(drawn)
+        self._refuse_near(view, self.brep.vertices[self.brep.firm])
+
+    def _refuse_near(self, view: View, points: np.ndarray) -> None:
+        self._refuse_coincident(view.draw(view.camera(points)))
 
     def _refuse_coincident(self, drawn: np.ndarray) -> None:
         pairs = cKDTree(drawn).query_pairs(self.options.min_vertex_distance + ROUNDING)

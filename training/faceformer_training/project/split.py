@@ -9,6 +9,7 @@ the face's parts.
 from __future__ import annotations
 
 from collections import defaultdict
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -58,15 +59,22 @@ class Split:
     parts: list[Part] = field(default_factory=list)
 
 
-def split_solid(brep: Brep, view: View) -> Split:
+def split_solid(
+    brep: Brep, view: View, refuse: Callable[[np.ndarray], None] | None = None
+) -> Split:
     """Split every curved face of a solid along its silhouettes in a view.
 
-    Raises ``ProjectionError`` with ``contour``, ``split`` or ``edge-end``.
+    ``refuse`` is given the vertices (n, 3) that the drawing is sure to have as soon as they are
+    known, before the costly silhouettes, and may raise. Raises ``ProjectionError`` with
+    ``contour``, ``split`` or ``edge-end``.
     """
     signs = face_signs(brep, view)
     cuts = find_cuts(brep, view, signs)
     result = Split(vertices=list(brep.vertices))
     arcs_of_edge, ends = _cut_edges(brep, cuts, result)
+    if refuse is not None:
+        fresh = np.array(result.vertices[len(brep.vertices) :]).reshape(-1, 3)
+        refuse(np.vstack([brep.vertices[brep.firm], fresh]))
     plane_facing = view.facing(brep.plane_points, brep.plane_normals) > 0
     flat_number = 0
     for index, face in enumerate(brep.faces):
