@@ -127,6 +127,15 @@ def test_a_corner_without_room_is_refused():
         rounded(rectangle_points(2, 1), [0.6] * 4)
 
 
+def test_what_would_cross_itself_is_refused():
+    with pytest.raises(Refused, match="crosses itself"):
+        face(polygon([(0, 0), (1, 1), (1, 0), (0, 1)]))
+    with pytest.raises(Refused, match="crosses itself"):
+        face(circle(1.0), circle(0.5, (0.8, 0.0)))
+    with pytest.raises(Refused, match="crosses its axis"):
+        kernel.revolve(kernel.placed(face(circle(1.0, (0.5, 0.0))), kernel.UPRIGHT))
+
+
 def test_spots_lie_free_on_their_face():
     body = cut(box(2, 2, 1), cylinder(0.5, 3, frame((1, 1, -1))))
     board, dice = Board(body), Dice("spots")

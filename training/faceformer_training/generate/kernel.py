@@ -9,7 +9,9 @@ import functools
 import math
 from collections.abc import Callable, Iterable, Sequence
 
+from OCP.Bnd import Bnd_Box
 from OCP.BRepAlgoAPI import BRepAlgoAPI_Common, BRepAlgoAPI_Cut, BRepAlgoAPI_Fuse
+from OCP.BRepBndLib import BRepBndLib
 from OCP.BRepBuilderAPI import BRepBuilderAPI_Transform
 from OCP.BRepOffsetAPI import (
     BRepOffsetAPI_DraftAngle,
@@ -84,6 +86,7 @@ def frame(origin: Vector = ORIGIN, normal: Vector = Z, x: Vector | None = None) 
 
 # The xz plane: what was drawn in (x, y) stands upright, as a profile about the z axis does.
 UPRIGHT = frame(ORIGIN, (0, -1, 0), X)
+Z_AXIS = gp_Ax1(point(ORIGIN), direction(Z))
 
 
 def explore(shape: TopoDS_Shape, kind: TopAbs_ShapeEnum) -> list[TopoDS_Shape]:
@@ -148,12 +151,17 @@ def extrude(shape: TopoDS_Shape, along: Vector) -> TopoDS_Shape:
 
 
 @guarded("revolution")
-def revolve(
-    face: TopoDS_Shape, origin: Vector = ORIGIN, axis: Vector = Z, angle: float = 0
-) -> TopoDS_Shape:
-    """The body that ``face`` sweeps about an axis; ``angle`` in radians, 0 for a whole turn."""
-    ax = gp_Ax1(point(origin), direction(axis))
-    made = BRepPrimAPI_MakeRevol(face, ax, angle) if angle else BRepPrimAPI_MakeRevol(face, ax)
+def revolve(profile: TopoDS_Shape, angle: float = 0) -> TopoDS_Shape:
+    """The body that a face in the xz plane sweeps about z; ``angle`` in radians, 0: a whole turn.
+
+    A face on both sides of the axis would sweep through itself, which no check of the result
+    finds: it is refused.
+    """
+    bounds = Bnd_Box()
+    BRepBndLib.AddOptimal_s(profile, bounds, False, False)
+    if bounds.CornerMin().X() < -1e-6:
+        raise Refused("a profile that crosses its axis")
+    made = BRepPrimAPI_MakeRevol(profile, Z_AXIS, angle or 2 * math.pi)
     return made.Shape()
 
 

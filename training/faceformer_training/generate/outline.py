@@ -13,6 +13,7 @@ from OCP.BRepBuilderAPI import (
     BRepBuilderAPI_MakeFace,
     BRepBuilderAPI_MakeWire,
 )
+from OCP.BRepCheck import BRepCheck_Analyzer
 from OCP.BRepTools import BRepTools
 from OCP.GC import GC_MakeArcOfCircle
 from OCP.GeomAPI import GeomAPI_Interpolate
@@ -167,16 +168,16 @@ def chained(edges: Sequence[TopoDS_Edge]) -> TopoDS_Wire:
 
 @guarded("outline")
 def face(outer: Outline | Ellipse, *holes: Outline | Ellipse) -> TopoDS_Face:
-    """The planar face inside ``outer`` and outside ``holes``, which must not touch."""
+    """The planar face inside ``outer`` and outside ``holes``.
+
+    Outlines that cross themselves or each other are refused: what is swept from them would cross
+    itself too, and no check of the body would find that.
+    """
     made = BRepBuilderAPI_MakeFace(outer.wire(), True)
-    if not holes:
-        return made.Face()
-    whole = made.Face()
-    made = BRepBuilderAPI_MakeFace(whole)
     for hole in holes:
         # A hole's wire must run against the outer one: MakeFace takes it as it is.
         alone = BRepBuilderAPI_MakeFace(hole.wire(), True).Face()
         made.Add(TopoDS.Wire_s(BRepTools.OuterWire_s(alone).Reversed()))
-    if not made.IsDone():
-        raise Refused("outline")
+    if not made.IsDone() or not BRepCheck_Analyzer(made.Face()).IsValid():
+        raise Refused("an outline that crosses itself")
     return made.Face()

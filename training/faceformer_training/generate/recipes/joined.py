@@ -1,7 +1,9 @@
 """Unions at odd angles, bent rods and tubes, lofts."""
 
+import itertools
 import math
 
+import numpy as np
 from OCP.Bnd import Bnd_Box
 from OCP.BRepBndLib import BRepBndLib
 from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeWire
@@ -31,6 +33,7 @@ from ..kernel import (
 from ..kernel import frame as axes
 from ..outline import Outline, circle, face, polygon
 from ..sections import ngon_points, rectangle_points, section
+from ..spots import polyline
 from . import basic
 
 
@@ -94,6 +97,7 @@ def bent_rod(dice: Dice) -> TopoDS_Shape:
         if i == n - 1 and dice.chance(0.85):
             long = dice.length(0.3, 2)
             chain.line(at[0] + long * math.cos(a), at[1] + long * math.sin(a))
+    check_clear(chain, radius, bend)
     path = BRepBuilderAPI_MakeWire()
     start = chain.start
     for step_edge in chain.edges(closed=False):
@@ -117,6 +121,19 @@ def bent_rod(dice: Dice) -> TopoDS_Shape:
             return body
         body = fuse(body, collar)
     return body
+
+
+def check_clear(chain: Outline, radius: float, bend: float) -> None:
+    """Refuses a path whose rod would run into itself, which no check of the body finds."""
+    lines = [polyline(edge) for edge in chain.edges(closed=False)]
+    ends = [(a, b) for p in lines for a, b in itertools.pairwise(p)]
+    dense = np.concatenate([np.linspace(a, b, 12, endpoint=False) for a, b in ends])
+    run = np.r_[0, np.cumsum(np.linalg.norm(np.diff(dense, axis=0), axis=1))]
+    gap = np.linalg.norm(dense[:, None] - dense, axis=-1)
+    # Half a turn further on the rod is two bend radii away, which is clear.
+    far = np.abs(run[:, None] - run) > math.pi * bend
+    if (gap[far] < 2.1 * radius).any():
+        raise Refused("a rod that runs into itself")
 
 
 def lofted(dice: Dice) -> TopoDS_Shape:
