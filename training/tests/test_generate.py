@@ -3,6 +3,9 @@
 import io
 import json
 import math
+import signal
+import subprocess
+import sys
 import tarfile
 
 import numpy as np
@@ -251,3 +254,13 @@ def test_a_draw_over_the_time_limit_is_killed_and_counted(monkeypatch):
         (result,) = pool.run([0])
     assert result.data is None
     assert result.reasons == [TIMED_OUT, TIMED_OUT, GIVEN_UP]
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not hasattr(signal, "SIGXCPU"), reason="no limit of processor time here")
+def test_processor_time_ends_a_process():
+    code = (
+        "from faceformer_training.generate.workers import limit_processor\n"
+        "limit_processor(0.5)\nwhile True: pass"
+    )
+    assert subprocess.run([sys.executable, "-c", code]).returncode == -signal.SIGXCPU

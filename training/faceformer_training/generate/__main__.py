@@ -38,7 +38,7 @@ def parser() -> argparse.ArgumentParser:
     p.add_argument("--shard", type=shard, default=(1, 1), metavar="i/n", help="every n-th, from i")
     p.add_argument("--jobs", type=int, default=1, help="worker processes (default 1)")
     p.add_argument(
-        "--seconds", type=float, default=10.0, help="time limit of one draw (default 10)"
+        "--seconds", type=float, default=10.0, help="processor time of one draw (default 10)"
     )
     p.add_argument("--max-faces", type=int, default=Limits.faces, help=f"default {Limits.faces}")
     return p

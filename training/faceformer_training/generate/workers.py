@@ -1,19 +1,31 @@
 """Worker processes that can be killed: OCCT cannot be interrupted from within a process.
 
-Each worker draws the attempts of one solid at a time and reports every one; the parent kills a
-worker whose attempt takes longer than the limit and lets a new one go on with the next attempt.
+Each worker draws the attempts of one solid at a time and reports every one. An attempt that uses
+more processor time than the limit ends its worker (so a busy machine changes no result), and one
+that takes ``PATIENCE`` times as long on the clock is killed; a new worker goes on with the next.
 """
 
+import math
 import multiprocessing
+import signal
 import time
 from collections import deque
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from multiprocessing.connection import Connection, wait
 
+try:
+    import resource
+except ImportError:  # not on Windows: there the clock alone limits an attempt
+    resource = None
+
 from .archive import packed
 from .finish import Limits
 from .solid import MOST_ATTEMPTS, attempts
+
+PATIENCE = 20
+# Seconds on the clock that a new worker may take to load OCCT.
+START = 300.0
 
 CRASHED = "the kernel crashed"
 TIMED_OUT = "over the time limit"
@@ -37,19 +49,34 @@ class Result:
 class _Worker:
     process: multiprocessing.process.BaseProcess
     pipe: Connection
+    ready: bool = False
     k: int | None = None
     attempt: int = 0
     since: float = 0.0
     reasons: list[str] = field(default_factory=list)
 
 
-def serve(pipe: Connection, seed: int, limits: Limits, mix: str) -> None:
-    """A worker's life: (k, first attempt) in; one message an attempt out; None ends it."""
+def limit_processor(seconds: float) -> None:
+    """The process is ended by SIGXCPU after this much more processor time, in whole seconds."""
+    if resource is not None:
+        _, hard = resource.getrlimit(resource.RLIMIT_CPU)
+        end = math.ceil(time.process_time() + seconds)
+        resource.setrlimit(resource.RLIMIT_CPU, (end, hard))
+
+
+def serve(pipe: Connection, seed: int, limits: Limits, mix: str, seconds: float) -> None:
+    """A worker's life: (k, first attempt) in; one message an attempt out; None ends it.
+
+    The first message, None, says that the worker is ready.
+    """
+    pipe.send(None)
     while (task := pipe.recv()) is not None:
         k, first = task
+        limit_processor(seconds)
         for number, result in enumerate(attempts(seed, k, limits, mix, first), first):
             if result.solid is None:
                 pipe.send((None, None, result.reason))
+                limit_processor(seconds)
                 continue
             solid = result.solid
             record = {
@@ -75,7 +102,9 @@ class Pool:
 
     def _start(self) -> _Worker:
         ours, theirs = self.context.Pipe()
-        process = self.context.Process(target=serve, args=(theirs, *self.drawn_from), daemon=True)
+        process = self.context.Process(
+            target=serve, args=(theirs, *self.drawn_from, self.seconds), daemon=True
+        )
         process.start()
         theirs.close()
         return _Worker(process, ours)
@@ -119,17 +148,24 @@ class Pool:
     def _hear(self, i: int) -> Result | None:
         worker = self.workers[i]
         try:
-            data, record, reason = worker.pipe.recv()
+            message = worker.pipe.recv()
         except (EOFError, ConnectionError):
-            return self._lost(i, CRASHED)
+            worker.process.join()
+            over = worker.process.exitcode == -getattr(signal, "SIGXCPU", 0)
+            return self._lost(i, TIMED_OUT if over else CRASHED)
         worker.since = time.monotonic()
+        if message is None:
+            worker.ready = True
+            return None
+        data, record, reason = message
         if data is not None:
             return Result(worker.k, data, record, worker.reasons)
         return self._failed(worker, reason)
 
     def _watch(self, i: int) -> Result | None:
         worker = self.workers[i]
-        if worker.k is None or time.monotonic() - worker.since < self.seconds:
+        limit = PATIENCE * self.seconds if worker.ready else START
+        if worker.k is None or time.monotonic() - worker.since < limit:
             return None
         worker.process.kill()
         return self._lost(i, TIMED_OUT)
