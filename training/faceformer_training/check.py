@@ -30,7 +30,7 @@ ON_PLANE = 2e-3
 CHORD = 3e-3
 """Largest sagitta between neighbouring pieces of a curve."""
 LEAST_AREA = 1e-6
-FAN_ERROR = 0.15
+FAN_ERROR = 0.4
 """How far below zero the estimated volume may be where no line of sight meets plane faces only:
 the bulge of curved faces is unknown here."""
 

@@ -16,6 +16,7 @@ from faceformer_training.project.output import OtherRunError, RunOutput
 from faceformer_training.project.pool import LocalPool
 from faceformer_training.project.read import ItemReader, list_items
 from faceformer_training.project.work import Plan, SolidResult, work_on
+from faceformer_training.split import SPLITS, gather
 
 
 @pytest.fixture(scope="module")
@@ -95,6 +96,19 @@ def test_a_resumed_run_equals_an_unbroken_one(archive, tmp_path):
     assert rows[0] == rows[1]
     with pytest.raises(OtherRunError):
         RunOutput(broken, {"a": 2})
+
+
+def test_two_runs_are_gathered_into_splits_once(archive, tmp_path):
+    runs = [tmp_path / "a.jsonl.zst", tmp_path / "b.jsonl.zst"]
+    for path in runs:
+        output = RunOutput(path, {})
+        for results in results_of(archive, Plan()):
+            output.add(results)
+        output.close()
+    counts = gather(runs, tmp_path / "split")
+    kept = [d.id for s in SPLITS for d in read_drawings(tmp_path / "split" / f"{s}.jsonl.zst")]
+    assert sorted(kept) == sorted(d.id for d in read_drawings(runs[0]))
+    assert counts["duplicate"] == len(kept)
 
 
 def test_runs_are_repeatable_and_seeds_differ(archive):

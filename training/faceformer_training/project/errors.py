@@ -35,6 +35,7 @@ REASONS = {
     "unify": "unifying same-domain faces gave no single solid",
     "invalid": "OCCT's checker finds the solid invalid",
     "not-closed": "an edge is not used exactly once in each direction",
+    "touching": "two sheets of the surface touch in a vertex: no manifold",
     "wire": "a wire is not a closed walk of its edges",
     "slit": "a face other than a periodic one has both co-edges of an edge",
     "sharp-seam": "a closed surface meets itself at an angle",

@@ -47,6 +47,7 @@ class Wireframe:
         self._number = self._join()
         self.loops = [[self._renumber(loop) for loop in part.loops] for part in split.parts]
         self._check_closed()
+        self._check_vertices()
 
     def _is_superfluous(self, leaving: list[int]) -> bool:
         """Whether the two half-edges that leave a vertex are one curve going on through it."""
@@ -163,3 +164,18 @@ class Wireframe:
                     start = self.edges[abs(following) - 1][0 if following > 0 else 1]
                     require(end == start, "loop", "a loop does not close")
         require(len(used) == 2 * len(self.edges), "loop", "a co-edge is in no loop")
+
+    def _check_vertices(self) -> None:
+        """Around each vertex the faces make one cycle; two sheets that touch in a point do not."""
+        following: dict[int, int] = {}
+        leaving: dict[int, list[int]] = defaultdict(list)
+        for loops in self.loops:
+            for loop in loops:
+                following.update(zip(loop, loop[1:] + loop[:1], strict=True))
+        for k in following:
+            leaving[self.edges[abs(k) - 1][0 if k > 0 else 1]].append(k)
+        for members in leaving.values():
+            k, steps = following[-members[0]], 1
+            while k != members[0] and steps < len(members):
+                k, steps = following[-k], steps + 1
+            require(steps == len(members), "touching", f"{steps} of {len(members)} edges")

@@ -24,7 +24,7 @@ class ProjectOptions:
     """Least |normal . towards the viewer| of a plane in a random view."""
     min_tilt_late: float = 5e-3
     """The same in the last tries, and in the fixed isometric view a fifth of it."""
-    tries: int = 8
+    tries: int = 16
     """Random views drawn in full before a solid is given up."""
     looks: int = 400
     """Random views looked at in all; most that are not generic are refused at a glance."""

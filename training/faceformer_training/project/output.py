@@ -34,6 +34,12 @@ def beside(path: Path, part: str) -> Path:
     return path.with_name(f"{stem}.{part}")
 
 
+def large_output(path: Path) -> Path:
+    """Where the drawings of large solids go."""
+    suffix = ".jsonl.zst" if path.name.endswith(".zst") else ".jsonl"
+    return beside(path, f"large{suffix}")
+
+
 class RunOutput:
     """Takes results in the order of the items and writes them, without duplicates.
 
@@ -45,8 +51,7 @@ class RunOutput:
         self.path = path
         self._state_path = beside(path, "state.json")
         self._index_path = beside(path, "solids.jsonl")
-        large = path.name[len(beside(path, "").name) - 1 :]
-        self._large_path = beside(path, f"large{large}")
+        self._large_path = large_output(path)
         self._identity = identity
         self._shapes: set[str] = set()
         self._views: set[str] = set()

@@ -62,7 +62,7 @@ class PreparedSolid:
                 return self.draw(view, name, source, tilt)
             except ProjectionError as error:
                 last = error
-                if error.code in ("too-few-faces", "too-many-faces"):
+                if error.code in ("too-few-faces", "too-many-faces", "touching"):
                     raise
         if last is None:
             raise ViewError("view-coincident", "not one generic view at a glance")
