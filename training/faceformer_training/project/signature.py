@@ -6,7 +6,8 @@ Three keys, each a short hash:
   their neighbours' colours (Weisfeiler and Leman 1968); lengths of all edges, and the volume, to
   1e-3. Equal keys: the same solid, perhaps moved or mirrored.
 - ``views``: the drawn lines of the views along the three axes on a grid, up to mirroring and
-  swapping axes, as the paper compares three orthogonal views. It finds duplicates whose B-reps
+  swapping axes, as the paper compares three orthogonal views; with three digits of extents and
+  volume, since boxes of different sizes look alike on a grid. It finds duplicates whose B-reps
   differ (a circle in one arc or in two).
 - ``family``: topology alone, and of a repeated feature only that it is there: the set of
   faces' neighbourhoods, not their numbers. A pin header with four pins and one with five are of
@@ -29,8 +30,7 @@ keeps round coordinates off the cells' borders."""
 
 
 def _hash(data: object) -> str:
-    raw = data if isinstance(data, bytes) else repr(data).encode()
-    return hashlib.blake2b(raw, digest_size=8).hexdigest()
+    return hashlib.blake2b(repr(data).encode(), digest_size=8).hexdigest()
 
 
 def _neighbours(solid: PreparedSolid) -> list[list[int]]:
@@ -97,7 +97,8 @@ def views_key(solid: PreparedSolid) -> str:
             for flip in ((1, 1), (1, -1), (-1, 1), (-1, -1))
         ]
         images.append(min(variants))
-    return _hash(b"".join(sorted(images)))
+    extents = sorted(round(float(x), 3) for x in np.ptp(dense, axis=0)) if len(dense) else []
+    return _hash((b"".join(sorted(images)), extents, f"{solid.volume:.2e}"))
 
 
 def _lines(solid: PreparedSolid) -> list[np.ndarray]:
