@@ -1,11 +1,12 @@
 //! Rows that rest on general position: what is parallel, centred or square in the drawing is so in
 //! space. They are taken in turn, only as long as depths are open, and only where they are.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
+use super::camera::Relation;
 use super::directions::AGREE;
 use super::revolved;
-use super::rows::{Tag, Unknowns};
+use super::rows::{Tag, Unknowns, along, normal_to};
 use super::sheet::Sheet;
 use super::system::System;
 use crate::drawing::{Curve2, SurfaceKind};
@@ -25,6 +26,13 @@ pub(super) const LEVELS: [Level; 6] = [
 
 /// Edges that are drawn parallel are parallel: their rises are as their drawn lengths.
 fn parallel(sheet: &Sheet<'_>, _: &Unknowns, system: &mut System<Tag>) {
+    // A vanishing point says more: the direction itself.
+    for slant in &sheet.directions.slanted {
+        for &edge in &slant.edges {
+            let v = sheet.drawing.edges[edge].v;
+            along(sheet, v, slant.direction, Tag::Parallel { edge }, system);
+        }
+    }
     let ends = |edge: usize| {
         let [u, v] = sheet.drawing.edges[edge].v;
         (u, v, sheet.drawing.vertices[v] - sheet.drawing.vertices[u])
@@ -58,17 +66,18 @@ fn prisms(sheet: &Sheet<'_>, unknowns: &Unknowns, system: &mut System<Tag>) {
             continue;
         };
         if leaving.all(|other| other == Some(k)) {
-            let n = sheet.axis(k);
-            let weight = (sheet.directions.error / (n.z * n.z)).recip();
-            system.push([(p, 1.0)], n.x / n.z, weight, Tag::Prism { face });
-            system.push([(p + 1, 1.0)], n.y / n.z, weight, Tag::Prism { face });
+            normal_to(sheet, face, p, sheet.axis(k), Tag::Prism { face }, system);
         }
     }
 }
 
 /// The end of a frustum, whose edges follow two axes, is centred over the vertices that its oblique
-/// edges lead to if it is drawn so: the mean of these edges follows the third axis.
+/// edges lead to if it is drawn so: the mean of these edges follows the third axis. A central
+/// projection does not draw means as means, and says nothing of this kind.
 fn frustums(sheet: &Sheet<'_>, _: &Unknowns, system: &mut System<Tag>) {
+    if !sheet.camera().is_parallel() {
+        return;
+    }
     for face in 0..sheet.faces.len() {
         let Some(normal) = sheet.normal_axis(face) else {
             continue;
@@ -120,46 +129,60 @@ fn generators(sheet: &Sheet<'_>, unknowns: &Unknowns, system: &mut System<Tag>) 
         else {
             continue;
         };
-        let drawn = axis.truncate();
-        let slope = axis.z / drawn.length_squared();
-        let error = 10.0 * sheet.directions.precision / drawn.length() / axis.z
-            + sheet.directions.error * sheet.size / drawn.length_squared();
         for &from in edges.iter().filter(|&&e| !sheet.is_straight(e)) {
             for &to in edges.iter().filter(|&&e| e != from) {
                 for p in sheet.samples(from) {
                     let Some(start) = depth_at(sheet, unknowns, from, p) else {
                         continue;
                     };
+                    let drawn = sheet.camera().drawn(axis, p);
+                    let length = drawn.length();
+                    let error = 10.0 * sheet.directions.precision / length / axis.z.abs().max(1e-3)
+                        + sheet.directions.error * sheet.size / (length * length);
                     let Some(q) = only_hit(sheet, to, p, drawn) else {
                         continue;
                     };
                     let Some(end) = depth_at(sheet, unknowns, to, q) else {
                         continue;
                     };
-                    let rise = (q - p).dot(drawn) * slope + start.shift - end.shift;
-                    system.push(
-                        end.minus(&start),
-                        rise,
-                        error.recip(),
-                        Tag::Generator { face },
-                    );
+                    let row = sheet.camera().along(axis, p, q);
+                    let tag = Tag::Generator { face };
+                    start.relate(&end, row, error.recip(), tag, system);
                 }
             }
         }
     }
 }
 
-/// Depth as terms and a shift: `sum(terms) + shift`.
+/// Height of a point as terms and a shift: `sum(terms) + shift`.
 pub(super) struct Depth {
     pub(super) terms: Vec<(usize, f64)>,
     pub(super) shift: f64,
 }
 
 impl Depth {
-    /// Terms of the difference of two depths, without the shifts.
-    pub(super) fn minus<'a>(&'a self, other: &'a Self) -> impl Iterator<Item = (usize, f64)> + 'a {
-        let negated = other.terms.iter().map(|&(i, c)| (i, -c));
-        self.terms.iter().copied().chain(negated)
+    /// Height of the point `q` in the plane of normal `n` through a vertex drawn at `p`.
+    pub(super) fn across(sheet: &Sheet<'_>, vertex: usize, n: DVec3, q: DVec2) -> Self {
+        let row = sheet.camera().across(n, sheet.drawing.vertices[vertex], q);
+        Self {
+            terms: vec![(vertex, row.from / row.to)],
+            shift: row.rise / row.to,
+        }
+    }
+
+    /// Adds the row that relates this height to that of `other`.
+    pub(super) fn relate(
+        &self,
+        other: &Self,
+        row: Relation,
+        weight: f64,
+        tag: Tag,
+        system: &mut System<Tag>,
+    ) {
+        let from = self.terms.iter().map(|&(i, c)| (i, -c * row.from));
+        let to = other.terms.iter().map(|&(i, c)| (i, c * row.to));
+        let rhs = row.rise - row.to * other.shift + row.from * self.shift;
+        system.push(from.chain(to), rhs, weight, tag);
     }
 }
 
@@ -175,12 +198,7 @@ fn depth_at(sheet: &Sheet<'_>, unknowns: &Unknowns, edge: usize, p: DVec2) -> Op
         });
     }
     if let Some((k, _)) = sheet.circles[edge] {
-        let n = sheet.axis(k);
-        let d = p - sheet.drawing.vertices[e.v[0]];
-        return Some(Depth {
-            terms: vec![(e.v[0], 1.0)],
-            shift: -d.dot(n.truncate()) / n.z,
-        });
+        return Some(Depth::across(sheet, e.v[0], sheet.axis(k), p));
     }
     let (face, plane) = sheet
         .neighbours(edge)

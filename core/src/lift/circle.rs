@@ -2,6 +2,8 @@
 
 use glam::{DVec2, DVec3};
 
+use super::Camera;
+
 /// A circle in space as it is drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct DrawnCircle {
@@ -18,20 +20,28 @@ pub(crate) struct DrawnCircle {
 
 /// Circle of unit normal `normal` whose drawing passes through the points.
 ///
-/// The points are taken back to the circle's plane, where distances across the normal's drawing are
-/// as drawn and those along it are longer by 1 / |n_z|; there a circle is fitted algebraically
-/// (Kasa 1976). `None` for fewer than three points, points on a line, or a plane seen edge-on.
-pub(crate) fn circle_through(points: &[DVec2], normal: DVec3) -> Option<DrawnCircle> {
-    let flat = normal.z.abs();
-    if points.len() < 3 || flat < 1e-9 {
+/// The points are taken back to the circle's plane at the distance where lengths are drawn as they
+/// are; there a circle is fitted algebraically (Kasa 1976). `None` for fewer than three points,
+/// points on a line, or a plane seen edge-on.
+pub(crate) fn circle_through(
+    points: &[DVec2],
+    normal: DVec3,
+    camera: &Camera,
+) -> Option<DrawnCircle> {
+    let middle = points.iter().sum::<DVec2>() / points.len().max(1) as f64;
+    let facing = camera.facing(normal, middle);
+    if points.len() < 3 || facing.abs() < 1e-9 {
         return None;
     }
     let along = normal.truncate().normalize_or(DVec2::X);
-    let across = along.perp();
-    let middle = points.iter().sum::<DVec2>() / points.len() as f64;
+    let u = along.perp().extend(0.0);
+    let w = normal.cross(u);
+    let (from, through) = camera.ray(middle);
+    let origin = if camera.is_parallel() { from } else { through };
     let unfold = |p: DVec2| {
-        let d = p - middle;
-        DVec2::new(d.dot(across), d.dot(along) / flat)
+        let (from, ray) = camera.ray(p);
+        let d = from + ray * (normal.dot(origin - from) / normal.dot(ray)) - origin;
+        DVec2::new(d.dot(u), d.dot(w))
     };
     let (center, radius, gain) = circle_fit(points.iter().map(|&p| unfold(p)))?;
     let residual = points
@@ -39,7 +49,7 @@ pub(crate) fn circle_through(points: &[DVec2], normal: DVec3) -> Option<DrawnCir
         .map(|&p| (unfold(p).distance(center) - radius).abs())
         .fold(0.0, f64::max);
     Some(DrawnCircle {
-        center: middle + across * center.x + along * (center.y * flat),
+        center: camera.project(origin + u * center.x + w * center.y),
         radius,
         residual,
         gain,
@@ -91,12 +101,36 @@ mod tests {
             .map(|i| 0.2 + 0.1 * f64::from(i))
             .map(|t| (center + 0.8 * (t.cos() * u + t.sin() * w)).truncate())
             .collect();
-        let found = circle_through(&points, normal).unwrap();
+        let found = circle_through(&points, normal, &Camera::Parallel).unwrap();
         assert!(found.center.distance(center.truncate()) < 1e-9);
         assert!((found.radius - 0.8).abs() < 1e-9);
         assert!(found.residual < 1e-12);
-        let other = circle_through(&points, DVec3::new(0.6, 0.2, 0.4).normalize()).unwrap();
+        let other = circle_through(
+            &points,
+            DVec3::new(0.6, 0.2, 0.4).normalize(),
+            &Camera::Parallel,
+        )
+        .unwrap();
         assert!(other.residual > 1e-6);
+    }
+
+    #[test]
+    fn a_circle_in_perspective_is_drawn_off_its_centre() {
+        let camera = Camera::Central {
+            principal: DVec2::new(0.1, -0.2),
+            focal: 2.5,
+        };
+        let normal = DVec3::new(0.3, -0.5, 0.7).normalize();
+        let u = normal.any_orthonormal_vector();
+        let w = normal.cross(u);
+        let center = DVec3::new(0.4, 0.1, -3.0);
+        let points: Vec<DVec2> = (0..9)
+            .map(|i| 0.3 * f64::from(i))
+            .map(|t| camera.project(center + 0.8 * (t.cos() * u + t.sin() * w)))
+            .collect();
+        let found = circle_through(&points, normal, &camera).unwrap();
+        assert!(found.center.distance(camera.project(center)) < 1e-9);
+        assert!(found.residual < 1e-12);
     }
 
     #[test]
@@ -104,8 +138,8 @@ mod tests {
         let points: Vec<DVec2> = (0..5)
             .map(|i| DVec2::new(f64::from(i), 2.0 * f64::from(i)))
             .collect();
-        assert_eq!(circle_through(&points, DVec3::Z), None);
-        assert_eq!(circle_through(&points[..2], DVec3::Z), None);
-        assert_eq!(circle_through(&points, DVec3::X), None);
+        assert_eq!(circle_through(&points, DVec3::Z, &Camera::Parallel), None);
+        assert_eq!(circle_through(&points[..2], DVec3::Z, &Camera::Parallel), None);
+        assert_eq!(circle_through(&points, DVec3::X, &Camera::Parallel), None);
     }
 }

@@ -20,7 +20,7 @@ pub(super) fn conflicts(sheet: &Sheet<'_>, depths: &[f64], surfaces: &[Surface])
             continue;
         };
         let off = |v: usize| {
-            let p = sheet.drawing.vertices[v].extend(depths[v]);
+            let p = sheet.camera().place(sheet.drawing.vertices[v], depths[v]);
             (p - *origin).dot(*normal).abs()
         };
         let corners = &sheet.corners[face];

@@ -22,10 +22,29 @@ pub enum LiftError {
         /// Vertex indices, from 0.
         vertices: Vec<usize>,
     },
+    /// In the best reading of a perspective drawing, parts of the model are not in front of the
+    /// camera.
+    #[error(
+        "vertices {vertices:?} would lie behind the camera; check the edges there, and whether the \
+         drawing is in perspective"
+    )]
+    Behind {
+        /// Vertex indices, from 0.
+        vertices: Vec<usize>,
+    },
+    /// The vanishing points leave the focal length of a perspective drawing open.
+    #[error(
+        "{directions} vanishing points at right angles do not tell the focal length; give it with \
+         the drawing"
+    )]
+    Focal {
+        /// How many vanishing points at right angles to each other were found.
+        directions: usize,
+    },
+    /// There is no mirror image in depth to take.
+    #[error("a perspective drawing has one reading in depth, no reversal; lift it without flipping")]
+    NoReversal,
     /// The solver gave up.
     #[error("the depth problem could not be solved: {0}")]
     Solver(String),
-    /// Drawings of this projection are not lifted.
-    #[error("{0} drawings cannot be lifted")]
-    Projection(&'static str),
 }

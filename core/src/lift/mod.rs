@@ -6,10 +6,12 @@
 //! 4. every plane and cylinder gets its surface.
 
 mod assumed;
+mod camera;
 mod circle;
 mod conflicts;
 pub mod directions;
 mod error;
+mod gauge;
 mod metric;
 mod model;
 mod pieces;
@@ -25,12 +27,13 @@ mod testing;
 #[cfg(test)]
 mod tests;
 
+pub use camera::Camera;
 pub use error::LiftError;
 pub use metric::depth_error;
 pub use model::{Conflict, Lift, LiftMethod, LiftOptions, Surface};
 pub(crate) use pieces::{Pieces, Tilt};
 
-use crate::drawing::Drawing;
+use crate::drawing::{Drawing, Projection};
 use crate::identify::Face;
 use crate::{Progress, Result, Stage};
 use directions::Directions;
@@ -44,12 +47,15 @@ use solve::Solved;
 /// default is the model seen from above: of the dominant directions, the one that is most vertical
 /// on the page has its upper end towards the viewer. [`LiftOptions::flip`] takes the other.
 ///
+/// A perspective drawing has one reading, and no scale: [`Lift::camera`] holds its focal length and
+/// principal point, given or estimated from vanishing points.
+///
 /// Faces need not be right: rows that contradict the others are dropped, and
 /// [`Lift::conflicts`] names the faces.
 ///
 /// # Errors
-/// [`LiftError`]: a perspective drawing, no directions, a degenerate view, or vertices whose depth
-/// nothing fixes. [`Error::Cancelled`](crate::Error::Cancelled) if `progress` asked to stop.
+/// [`LiftError`]: no directions, a degenerate view, a focal length that nothing tells, or vertices
+/// whose depth nothing fixes. [`Error::Cancelled`](crate::Error::Cancelled) if `progress` asked to stop.
 pub fn lift(
     drawing: &Drawing,
     faces: &[Face],
@@ -57,6 +63,9 @@ pub fn lift(
     progress: Progress<'_>,
 ) -> Result<Lift> {
     progress.report(Stage::Lift, 0.0)?;
+    if options.flip && matches!(drawing.projection, Projection::Perspective { .. }) {
+        return Err(LiftError::NoReversal.into());
+    }
     let readings = Directions::candidates(drawing)?;
     let most = readings.iter().map(explained).max().unwrap_or(0);
     let mut best: Option<Choice> = None;
@@ -83,7 +92,7 @@ pub fn lift(
         let choice = Choice {
             dropped: solved.dropped(),
             rival,
-            posture: Posture::of(&sheet, |v| solved.depth(v)),
+            posture: Posture::of(&sheet, |v| solved.height(v)),
             lift: finish(&sheet, &solved),
         };
         if best.as_ref().is_none_or(|b| choice.is_better_than(b)) {
@@ -122,14 +131,22 @@ impl Choice {
 
 fn finish(sheet: &Sheet<'_>, solved: &Solved) -> Lift {
     let count = sheet.drawing.vertices.len();
-    let mean = (0..count).map(|v| solved.depth(v)).sum::<f64>() / count.max(1) as f64;
-    let depths: Vec<f64> = (0..count).map(|v| solved.depth(v) - mean).collect();
+    let camera = *sheet.camera();
+    let depth = |v: usize| camera.depth(solved.height(v));
+    // In a parallel projection the place in depth is free.
+    let mean = if camera.is_parallel() {
+        (0..count).map(depth).sum::<f64>() / count.max(1) as f64
+    } else {
+        0.0
+    };
+    let depths: Vec<f64> = (0..count).map(|v| depth(v) - mean).collect();
     let surfaces: Vec<Surface> = (0..sheet.faces.len())
         .map(|f| surfaces::surface(sheet, solved, f).lowered(mean))
         .collect();
     Lift {
         conflicts: conflicts::conflicts(sheet, &depths, &surfaces),
         depths,
+        camera,
         surfaces,
         directions: sheet.directions.axes.iter().map(|a| a.direction).collect(),
         method: solved.method,

@@ -3,6 +3,8 @@
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
+use super::Camera;
+
 /// Options of lifting.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct LiftOptions {
@@ -84,8 +86,13 @@ pub struct Conflict {
 /// A lifted drawing.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Lift {
-    /// Depth z of every vertex, drawing units, towards the viewer; mean 0.
+    /// Depth z of every vertex, drawing units, towards the viewer. The mean is 0 in a parallel
+    /// projection. In a central one the camera is at 0 and the scale, which the drawing does not
+    /// tell, is such that the mean of f / -z is 1.
     pub depths: Vec<f64>,
+    /// The projection: given, or estimated in a perspective drawing.
+    #[serde(default)]
+    pub camera: Camera,
     /// Surface of every face, in the order of the faces given.
     pub surfaces: Vec<Surface>,
     /// Dominant directions found, unit vectors in the camera frame; three if a full frame.

@@ -7,7 +7,7 @@ use super::LiftError;
 use super::directions::Directions;
 use super::sheet::Sheet;
 use super::solve::{self, Solved};
-use crate::drawing::Drawing;
+use crate::drawing::{Drawing, Projection};
 use crate::identify::Face;
 
 /// A lifted drawing whose parts may still move in depth against each other.
@@ -44,6 +44,9 @@ impl Pieces {
     /// # Errors
     /// As [`lift`](super::lift()), but depths may stay open.
     pub(crate) fn new(drawing: &Drawing, faces: &[Face]) -> Result<Self, LiftError> {
+        if matches!(drawing.projection, Projection::Perspective { .. }) {
+            return Err(LiftError::NoDirections("perspective".into()));
+        }
         let mut best: Option<(usize, Self)> = None;
         let mut refusal = None;
         for reading in Directions::candidates(drawing)? {
@@ -78,7 +81,7 @@ impl Pieces {
 
     /// Depth of a vertex.
     pub(crate) fn depth(&self, vertex: usize) -> f64 {
-        self.solved.depth(vertex)
+        self.solved.height(vertex)
     }
 
     /// Plane of a planar face, if its slope is determined.

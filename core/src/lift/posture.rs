@@ -27,7 +27,7 @@ pub(super) struct Posture {
 
 impl Posture {
     /// The posture of a lifted reading. Depths and directions reversed together have the same.
-    pub(super) fn of(sheet: &Sheet<'_>, depth: impl Fn(usize) -> f64) -> Self {
+    pub(super) fn of(sheet: &Sheet<'_>, height: impl Fn(usize) -> f64) -> Self {
         let axes = sheet.directions.axes.iter().map(|a| a.direction);
         let Some(up) = axes.max_by(|a, b| steepness(*a).total_cmp(&steepness(*b))) else {
             return Self {
@@ -37,7 +37,9 @@ impl Posture {
         };
         let up = if up.y < 0.0 { -up } else { up };
         let vertices = sheet.drawing.vertices.iter().enumerate();
-        let heights: Vec<f64> = vertices.map(|(v, p)| p.extend(depth(v)).dot(up)).collect();
+        let heights: Vec<f64> = vertices
+            .map(|(v, p)| sheet.place(*p, height(v)).dot(up))
+            .collect();
         let bottom = heights.iter().copied().fold(f64::INFINITY, f64::min);
         let low = bottom + LEVEL * sheet.size;
         let faces = sheet.faces.iter().zip(&sheet.corners);

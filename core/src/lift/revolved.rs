@@ -5,6 +5,7 @@
 use glam::{DVec2, DVec3};
 
 use super::assumed::Depth;
+use super::camera::Relation;
 use super::circle::{DrawnCircle, circle_through};
 use super::directions::AGREE;
 use super::rows::{Tag, Unknowns};
@@ -74,15 +75,12 @@ pub(super) fn on_one_axis(sheet: &Sheet<'_>, _: &Unknowns, system: &mut System<T
 
 fn center_of(sheet: &Sheet<'_>, vertex: usize, k: usize, circle: &DrawnCircle) -> Center {
     let n = sheet.axis(k);
-    let d = circle.center - sheet.drawing.vertices[vertex];
+    let facing = sheet.camera().facing(n, circle.center);
     Center {
         at: circle.center,
-        depth: Depth {
-            terms: vec![(vertex, 1.0)],
-            shift: -d.dot(n.truncate()) / n.z,
-        },
+        depth: Depth::across(sheet, vertex, n, circle.center),
         error: (sheet.directions.precision * circle.gain + sheet.directions.error * circle.radius)
-            / (n.z * n.z),
+            / (facing * facing),
     }
 }
 
@@ -124,10 +122,12 @@ fn tips(sheet: &Sheet<'_>, edges: &[usize]) -> Vec<Center> {
 
 /// The outline of a sphere is a circle around its centre, at its centre's depth.
 fn outlines(sheet: &Sheet<'_>, face: usize, edges: &[usize]) -> Vec<Center> {
-    let is_sphere = matches!(
-        sheet.faces[face].kind,
-        SurfaceKind::Sphere | SurfaceKind::Other
-    );
+    // In a central projection it is neither.
+    let is_sphere = sheet.camera().is_parallel()
+        && matches!(
+            sheet.faces[face].kind,
+            SurfaceKind::Sphere | SurfaceKind::Other
+        );
     let outline = |&e: &usize| match sheet.drawing.edges[e].curve {
         Curve2::Ellipse(arc) if is_sphere && arc.ratio > OUTLINE && arc.uncertainty < 1e-3 => {
             let v = sheet.drawing.edges[e].v[0];
@@ -171,21 +171,19 @@ fn ring(
     ends.dedup();
     let n = sheet.axis(k);
     let points: Vec<DVec2> = ends.iter().map(|&v| sheet.drawing.vertices[v]).collect();
-    let circle = circle_through(&points, n)?;
-    let error = (sheet.directions.precision + sheet.directions.error * circle.radius) / (n.z * n.z);
+    let circle = circle_through(&points, n, sheet.camera())?;
+    let facing = sheet.camera().facing(n, circle.center);
+    let error =
+        (sheet.directions.precision + sheet.directions.error * circle.radius) / (facing * facing);
     if ends.len() < 4 || circle.residual > 3.0 * AGREE * error {
         return None;
     }
     let first = ends[0];
     for (&v, p) in ends.iter().zip(&points).skip(1) {
-        let rise = -(*p - points[0]).dot(n.truncate()) / n.z;
+        let row = sheet.camera().across(n, points[0], *p);
         let weight = (2.0 * error).recip();
-        system.push(
-            [(v, 1.0), (first, -1.0)],
-            rise,
-            weight,
-            Tag::Revolved { face },
-        );
+        let terms = [(v, row.to), (first, -row.from)];
+        system.push(terms, row.rise, weight, Tag::Revolved { face });
     }
     Some(center_of(sheet, first, k, &circle))
 }
@@ -193,32 +191,40 @@ fn ring(
 /// Rows between each centre and the first one that is drawn on the same axis.
 fn link(sheet: &Sheet<'_>, centers: &[Center], k: usize, face: usize, system: &mut System<Tag>) {
     let axis = sheet.axis(k);
-    let drawn = axis.truncate();
-    let length = drawn.length();
     let Some((first, others)) = centers.split_first() else {
         return;
     };
     for other in others {
         let apart = other.at - first.at;
+        let drawn = sheet.camera().drawn(axis, first.at.midpoint(other.at));
+        let length = drawn.length();
         let error = first.error + other.error;
         let off = apart.perp_dot(drawn).abs() / length;
         if off < AGREE * error + sheet.directions.error * apart.length() / length {
-            let rise = apart.dot(drawn) / (length * length) * axis.z;
             let error =
                 2.0 * error / length + sheet.directions.error * apart.length() / (length * length);
-            system.push(
-                other.depth.minus(&first.depth),
-                rise - other.depth.shift + first.depth.shift,
-                error.recip(),
-                Tag::Revolved { face },
-            );
+            let row = sheet.camera().along(axis, first.at, other.at);
+            let tag = Tag::Revolved { face };
+            first.depth.relate(&other.depth, row, error.recip(), tag, system);
         }
+    }
+}
+
+/// Two heights in a parallel projection that differ by a known one.
+const fn level(rise: f64) -> Relation {
+    Relation {
+        to: 1.0,
+        from: 1.0,
+        rise,
     }
 }
 
 /// A pipe's bend by a right angle: the centre of its one end is as far along the one axis as along
 /// the other from the centre of its other end, which the drawing shows.
 fn bends(sheet: &Sheet<'_>, edges: &[usize], face: usize, system: &mut System<Tag>) {
+    if !sheet.camera().is_parallel() {
+        return;
+    }
     let count = sheet.directions.axes.len();
     for i in 0..count {
         for j in i + 1..count {
@@ -235,12 +241,10 @@ fn bends(sheet: &Sheet<'_>, edges: &[usize], face: usize, system: &mut System<Ta
                 (from.error + to.error + sheet.directions.error * apart.length()) / det.abs();
             let even = (along.x.abs() - along.y.abs()).abs() < AGREE * error;
             if even && along.x.abs() > 20.0 * error {
-                system.push(
-                    to.depth.minus(&from.depth),
-                    along.x * a.z + along.y * b.z - to.depth.shift + from.depth.shift,
-                    (2.0 * error).recip(),
-                    Tag::Revolved { face },
-                );
+                let row = level(along.x * a.z + along.y * b.z);
+                let tag = Tag::Revolved { face };
+                from.depth
+                    .relate(&to.depth, row, (2.0 * error).recip(), tag, system);
             }
         }
     }
@@ -252,6 +256,9 @@ fn bends(sheet: &Sheet<'_>, edges: &[usize], face: usize, system: &mut System<Ta
 /// With n the axis, e its drawn direction, s and d a point's drawn distances from the centre along e
 /// and across it: `|n_xy| z = n_z s +- sqrt(r^2 - d^2)` above the centre's depth.
 pub(super) fn on_cylinder(sheet: &Sheet<'_>, _: &Unknowns, system: &mut System<Tag>) {
+    if !sheet.camera().is_parallel() {
+        return;
+    }
     for (face, f) in sheet.faces.iter().enumerate() {
         if f.kind != SurfaceKind::Cylinder {
             continue;
@@ -292,12 +299,8 @@ pub(super) fn on_cylinder(sheet: &Sheet<'_>, _: &Unknowns, system: &mut System<T
                 shift: 0.0,
             };
             let weight = (2.0 * error).recip();
-            system.push(
-                own.minus(&center.depth),
-                z + center.depth.shift,
-                weight,
-                Tag::Revolved { face },
-            );
+            let tag = Tag::Revolved { face };
+            center.depth.relate(&own, level(z), weight, tag, system);
         }
     }
 }

@@ -1,8 +1,13 @@
 //! The rows of the depth problem (design, section 4).
 //!
-//! Unknowns are the depth z of every vertex and (a, b, c) of every planar face,
-//! `z + a (x - x0) + b (y - y0) + c = 0` with (x0, y0) the mean of the face's vertices.
+//! Unknowns are the height h of every vertex, which is its depth z in a parallel projection and
+//! inverse depth in a central one ([`Camera`]), and (a, b, c) of every planar face,
+//! `h + a (x - x0) + b (y - y0) + c = 0` with (x0, y0) the mean of the face's vertices.
 
+use glam::DVec3;
+
+#[cfg(doc)]
+use super::Camera;
 use super::sheet::Sheet;
 use super::system::System;
 
@@ -13,6 +18,8 @@ pub(super) enum Tag {
     Incidence { face: usize, vertex: usize },
     /// A straight edge follows an axis.
     Edge { edge: usize },
+    /// A vertex' height, by which the scale of a perspective drawing is chosen.
+    Gauge,
     /// A planar face contains an axis' direction, because its edge follows it.
     Alignment { face: usize },
     /// A planar face is normal to an axis, because its arc is a circle around it.
@@ -97,19 +104,61 @@ fn edges(sheet: &Sheet<'_>, system: &mut System<Tag>) {
         let Some(k) = sheet.edge_axis[edge] else {
             continue;
         };
-        let axis = sheet.axis(k);
-        let drawn = axis.truncate();
-        let d = sheet.drawing.vertices[e.v[1]] - sheet.drawing.vertices[e.v[0]];
-        let rise = d.dot(drawn) / drawn.length_squared() * axis.z;
-        let slope = axis.z / drawn.length();
-        let error = sheet.directions.precision * (2.0 * (1.0 + slope * slope)).sqrt()
-            + sheet.directions.error * d.length() / drawn.length_squared();
-        system.push(
-            [(e.v[1], 1.0), (e.v[0], -1.0)],
-            rise,
-            error.recip(),
-            Tag::Edge { edge },
-        );
+        along(sheet, e.v, sheet.axis(k), Tag::Edge { edge }, system);
+    }
+}
+
+/// The row of two vertices on a line along a direction.
+pub(super) fn along(
+    sheet: &Sheet<'_>,
+    [from, to]: [usize; 2],
+    axis: DVec3,
+    tag: Tag,
+    system: &mut System<Tag>,
+) {
+    let [u, v] = [from, to].map(|v| sheet.drawing.vertices[v]);
+    let drawn = sheet.camera().drawn(axis, u.midpoint(v)).length();
+    let slope = axis.z / drawn;
+    let error = sheet.directions.precision * (2.0 * (1.0 + slope * slope)).sqrt()
+        + sheet.directions.error * u.distance(v) / (drawn * drawn);
+    let row = sheet.camera().along(axis, u, v);
+    let terms = [(to, row.to), (from, -row.from)];
+    system.push(terms, row.rise, error.recip(), tag);
+}
+
+/// The rows of a planar face, `p` its first unknown, that is normal to a direction.
+pub(super) fn normal_to(
+    sheet: &Sheet<'_>,
+    face: usize,
+    p: usize,
+    n: DVec3,
+    tag: Tag,
+    system: &mut System<Tag>,
+) {
+    let facing = sheet.camera().facing(n, sheet.middles[face]);
+    let weight = (sheet.directions.error / (facing * facing)).recip();
+    for (unknown, slope) in [(p, n.x / facing), (p + 1, n.y / facing)] {
+        slope_row(sheet, (p, [(unknown, 1.0)]), slope, weight, tag, system);
+    }
+}
+
+/// A row about the slope of a plane, whose first unknown is `p`.
+fn slope_row<const N: usize>(
+    sheet: &Sheet<'_>,
+    (p, terms): (usize, [(usize, f64); N]),
+    rhs: f64,
+    weight: f64,
+    tag: Tag,
+    system: &mut System<Tag>,
+) {
+    match sheet.camera().constant() {
+        None => system.push(terms, rhs, weight, tag),
+        Some(c) => system.push(
+            terms.into_iter().chain([(p + 2, rhs * c)]),
+            0.0,
+            weight,
+            tag,
+        ),
     }
 }
 
@@ -118,7 +167,7 @@ fn alignment(sheet: &Sheet<'_>, unknowns: &Unknowns, system: &mut System<Tag>) {
         let Some(p) = unknowns.plane(face) else {
             continue;
         };
-        let mut extent = [0.0f64; 3];
+        let mut extent = vec![0.0f64; sheet.directions.axes.len()];
         for &edge in sheet.edges_of(face) {
             if let Some(k) = sheet.edge_axis[edge] {
                 extent[k] = extent[k].max(sheet.drawing.edges[edge].length());
@@ -129,8 +178,10 @@ fn alignment(sheet: &Sheet<'_>, unknowns: &Unknowns, system: &mut System<Tag>) {
                 let l = sheet.axis(k);
                 // The error of a direction over the length of the edge that shows it.
                 let error = sheet.directions.error + sheet.directions.precision / length;
-                let terms = [(p, l.x), (p + 1, l.y)];
-                system.push(terms, -l.z, error.recip(), Tag::Alignment { face });
+                let d = sheet.camera().drawn(l, sheet.middles[face]);
+                let terms = [(p, d.x), (p + 1, d.y)];
+                let tag = Tag::Alignment { face };
+                slope_row(sheet, (p, terms), -l.z, error.recip(), tag, system);
             }
         }
     }
@@ -148,10 +199,7 @@ fn discs(sheet: &Sheet<'_>, unknowns: &Unknowns, system: &mut System<Tag>) {
             }
         }
         for k in (0..3).filter(|&k| seen[k]) {
-            let n = sheet.axis(k);
-            let weight = (sheet.directions.error / (n.z * n.z)).recip();
-            system.push([(p, 1.0)], n.x / n.z, weight, Tag::Disc { face });
-            system.push([(p + 1, 1.0)], n.y / n.z, weight, Tag::Disc { face });
+            normal_to(sheet, face, p, sheet.axis(k), Tag::Disc { face }, system);
         }
     }
 }
@@ -160,15 +208,13 @@ fn chords(sheet: &Sheet<'_>, system: &mut System<Tag>) {
     for (edge, e) in sheet.drawing.edges.iter().enumerate() {
         if let (Some((k, _)), true) = (&sheet.circles[edge], e.v[0] != e.v[1]) {
             let n = sheet.axis(*k);
-            let d = sheet.drawing.vertices[e.v[1]] - sheet.drawing.vertices[e.v[0]];
-            let error = sheet.directions.precision / n.z
-                + sheet.directions.error * d.length() / (n.z * n.z);
-            system.push(
-                [(e.v[1], 1.0), (e.v[0], -1.0)],
-                -d.dot(n.truncate()) / n.z,
-                error.recip(),
-                Tag::Chord { edge },
-            );
+            let [u, v] = e.v.map(|v| sheet.drawing.vertices[v]);
+            let facing = sheet.camera().facing(n, u.midpoint(v)).abs();
+            let error = sheet.directions.precision / facing
+                + sheet.directions.error * u.distance(v) / (facing * facing);
+            let row = sheet.camera().across(n, u, v);
+            let terms = [(e.v[1], row.to), (e.v[0], -row.from)];
+            system.push(terms, row.rise, error.recip(), Tag::Chord { edge });
         }
     }
 }

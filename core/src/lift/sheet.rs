@@ -2,6 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
+use super::Camera;
 use super::circle::{DrawnCircle, circle_through};
 use super::directions::{AGREE, Directions, Evidence};
 use crate::drawing::{Curve2, Drawing, SurfaceKind};
@@ -21,7 +22,8 @@ pub(super) struct Sheet<'a> {
     pub(super) corners: Vec<Vec<usize>>,
     /// Mean of each face's vertices.
     pub(super) middles: Vec<DVec2>,
-    /// Straight edges without an axis that are drawn parallel, longest first.
+    /// Straight edges without an axis that are drawn parallel, longest first; in a parallel
+    /// projection.
     pub(super) parallels: Vec<Vec<usize>>,
     /// Edges of each face, sorted, each once.
     edges: Vec<Vec<usize>>,
@@ -41,8 +43,11 @@ impl<'a> Sheet<'a> {
                 edge_axis[e] = Some(k);
             }
             for &e in &axis.circles {
-                let tolerance = 3.0 * AGREE * directions.precision / axis.direction.z.abs();
-                circles[e] = circle_through(&drawing.edges[e].points, axis.direction)
+                let points = &drawing.edges[e].points;
+                let camera = &directions.camera;
+                let facing = camera.facing(axis.direction, points[points.len() / 2]);
+                let tolerance = 3.0 * AGREE * directions.precision / facing.abs();
+                circles[e] = circle_through(points, axis.direction, camera)
                     .filter(|c| c.residual < tolerance + AGREE * directions.error * c.radius)
                     .map(|c| (k, c));
             }
@@ -70,13 +75,16 @@ impl<'a> Sheet<'a> {
                 edges_at[edge.v[1]].push(e);
             }
         }
-        let evidence = Evidence::new(drawing, directions.precision);
-        let parallels = evidence
-            .clusters
-            .iter()
-            .map(|c| evidence.edges_of(c).collect())
-            .filter(|c: &Vec<usize>| c.len() > 1 && c.iter().all(|&e| edge_axis[e].is_none()))
-            .collect();
+        let parallels = if directions.camera.is_parallel() {
+            let evidence = Evidence::new(drawing, directions.precision);
+            let clusters = evidence.clusters.iter();
+            clusters
+                .map(|c| evidence.edges_of(c).collect())
+                .filter(|c: &Vec<usize>| c.len() > 1 && c.iter().all(|&e| edge_axis[e].is_none()))
+                .collect()
+        } else {
+            Vec::new()
+        };
         Self {
             parallels,
             edges: face_edges,
@@ -95,6 +103,15 @@ impl<'a> Sheet<'a> {
 
     pub(super) fn axis(&self, k: usize) -> DVec3 {
         self.directions.axes[k].direction
+    }
+
+    pub(super) fn camera(&self) -> &Camera {
+        &self.directions.camera
+    }
+
+    /// The point drawn at `p` with a height.
+    pub(super) fn place(&self, p: DVec2, height: f64) -> DVec3 {
+        self.camera().place(p, self.camera().depth(height))
     }
 
     pub(super) fn is_planar(&self, face: usize) -> bool {

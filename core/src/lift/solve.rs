@@ -2,6 +2,7 @@
 //! then exactly once more over the rows that agree.
 
 use super::assumed::LEVELS;
+use super::gauge;
 use super::rows::{self, Tag, Unknowns};
 use super::sheet::Sheet;
 use super::system::{NullSpace, System};
@@ -33,7 +34,7 @@ impl Solved {
         self.active.iter().filter(|a| !**a).count()
     }
 
-    pub(super) fn depth(&self, vertex: usize) -> f64 {
+    pub(super) fn height(&self, vertex: usize) -> f64 {
         self.x[vertex]
     }
 
@@ -63,7 +64,11 @@ impl Solved {
 /// Solves a reading whose depths must all be tied together.
 pub(super) fn solve(sheet: &Sheet<'_>) -> Result<Solved, LiftError> {
     let solved = solve_open(sheet)?;
-    refuse_loose(&solved.unknowns, &solved.null_space)?;
+    let vertices = loose(sheet, &solved.unknowns, &solved.null_space);
+    if !vertices.is_empty() {
+        return Err(LiftError::UnderConstrained { vertices });
+    }
+    gauge::in_front(sheet, &solved.x)?;
     Ok(solved)
 }
 
@@ -71,9 +76,9 @@ pub(super) fn solve(sheet: &Sheet<'_>) -> Result<Solved, LiftError> {
 pub(super) fn solve_open(sheet: &Sheet<'_>) -> Result<Solved, LiftError> {
     let unknowns = Unknowns::new(sheet);
     let mut system = rows::certain(sheet, &unknowns);
-    let mut null_space = system.null_space()?;
+    let mut null_space = gauge::choose(sheet, &unknowns, &mut system)?;
     for level in LEVELS {
-        if loose(&unknowns, &null_space).is_empty() {
+        if loose(sheet, &unknowns, &null_space).is_empty() {
             break;
         }
         let mut more = System::new(system.unknowns());
@@ -91,12 +96,14 @@ pub(super) fn solve_open(sheet: &Sheet<'_>) -> Result<Solved, LiftError> {
     let base: Vec<f64> = system.rows().iter().map(|r| r.weight).collect();
     let mut active = vec![true; system.rows().len()];
     let mut x = settle(&mut system, &unknowns, &base, &active)?;
+    gauge::rescale(sheet, &null_space, &mut system, &mut x);
     let mut method = LiftMethod::Exact;
-    if agreeing(&system, &x).contains(&false) {
+    if agreeing(&system, &x).contains(&false) || gauge::in_front(sheet, &x).is_err() {
         method = LiftMethod::L1;
         restore(&mut system, &base);
         x = system.least_absolute()?.x;
         for _ in 0..ROUNDS {
+            gauge::rescale(sheet, &null_space, &mut system, &mut x);
             weigh(&mut system, &unknowns, &base, &x);
             let next = agreeing(&system, &x);
             let same = next == active;
@@ -107,6 +114,7 @@ pub(super) fn solve_open(sheet: &Sheet<'_>) -> Result<Solved, LiftError> {
             x = settle(&mut system, &unknowns, &base, &active)?;
         }
         null_space = system.null_space_of(&active)?;
+        gauge::rescale(sheet, &null_space, &mut system, &mut x);
     }
     Ok(Solved {
         unknowns,
@@ -165,7 +173,11 @@ fn agreeing(system: &System<Tag>, x: &[f64]) -> Vec<bool> {
 }
 
 /// Vertices whose depth is not tied to that of most others.
-fn loose(unknowns: &Unknowns, null_space: &NullSpace) -> Vec<usize> {
+fn loose(sheet: &Sheet<'_>, unknowns: &Unknowns, null_space: &NullSpace) -> Vec<usize> {
+    if !sheet.camera().is_parallel() {
+        let vertices = unknowns.vertices();
+        return vertices.filter(|&v| null_space.is_free(v)).collect();
+    }
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for v in unknowns.vertices() {
         match groups.iter_mut().find(|g| null_space.are_tied(g[0], v)) {
@@ -180,13 +192,4 @@ fn loose(unknowns: &Unknowns, null_space: &NullSpace) -> Vec<usize> {
     let mut loose: Vec<usize> = groups.into_iter().flatten().collect();
     loose.sort_unstable();
     loose
-}
-
-fn refuse_loose(unknowns: &Unknowns, null_space: &NullSpace) -> Result<(), LiftError> {
-    let vertices = loose(unknowns, null_space);
-    if vertices.is_empty() {
-        Ok(())
-    } else {
-        Err(LiftError::UnderConstrained { vertices })
-    }
 }

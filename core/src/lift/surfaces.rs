@@ -24,14 +24,17 @@ pub(super) fn surface(sheet: &Sheet<'_>, solved: &Solved, face: usize) -> Surfac
 }
 
 fn vertex(sheet: &Sheet<'_>, solved: &Solved, v: usize) -> DVec3 {
-    sheet.drawing.vertices[v].extend(solved.depth(v))
+    sheet.place(sheet.drawing.vertices[v], solved.height(v))
 }
 
 fn plane(sheet: &Sheet<'_>, solved: &Solved, face: usize) -> Option<Surface> {
     if let Some([a, b, c]) = solved.plane(face) {
         return Some(Surface::Plane {
-            origin: sheet.middles[face].extend(-c),
-            normal: DVec3::new(a, b, 1.0).normalize(),
+            origin: sheet.place(sheet.middles[face], -c),
+            normal: sheet
+                .camera()
+                .normal([a, b, c], sheet.middles[face])
+                .normalize(),
         });
     }
     let points: Vec<DVec3> = sheet.corners[face]
@@ -71,12 +74,13 @@ fn cylinder(sheet: &Sheet<'_>, solved: &Solved, face: usize) -> Option<Surface> 
         .iter()
         .map(|p| DVec2::new(p.dot(u), p.dot(w)))
         .collect();
-    // On an outline the radius is at right angles to the view.
-    let side = axis.cross(DVec3::Z).try_normalize()?;
-    let side = DVec2::new(side.dot(u), side.dot(w));
     let through = circle_fit(flat.iter().copied());
     let by_outline = outlines(sheet, face).filter_map(|v| {
         let p = vertex(sheet, solved, v);
+        // On an outline the radius is at right angles to the view.
+        let (_, ray) = sheet.camera().ray(sheet.drawing.vertices[v]);
+        let side = axis.cross(ray).try_normalize()?;
+        let side = DVec2::new(side.dot(u), side.dot(w));
         touching(&flat, DVec2::new(p.dot(u), p.dot(w)), side)
     });
     let narrow = through.is_none_or(|(center, _, _)| arc_width(&flat, center) < NARROW);
@@ -134,14 +138,14 @@ fn boundary_points(sheet: &Sheet<'_>, solved: &Solved, face: usize) -> Vec<DVec3
         let normal = match sheet.circles[e] {
             Some((k, _)) => Some(sheet.axis(k)),
             None => sheet.neighbours(e).iter().find_map(|&f| {
-                let [a, b, _] = solved.plane(f)?;
-                Some(DVec3::new(a, b, 1.0))
+                let plane = solved.plane(f)?;
+                Some(sheet.camera().normal(plane, sheet.middles[f]))
             }),
         };
         if let Some(n) = normal {
             points.extend(inner.iter().map(|p| {
-                let d = *p - start.truncate();
-                p.extend(start.z - d.dot(n.truncate()) / n.z)
+                let (from, ray) = sheet.camera().ray(*p);
+                from + ray * (n.dot(start - from) / n.dot(ray))
             }));
         }
     }

@@ -5,7 +5,7 @@ use glam::{DMat3, DVec3};
 use crate::Result;
 use crate::drawing::{CoEdge, Drawing};
 use crate::identify::Face;
-use crate::lift::Lift;
+use crate::lift::{Camera, Lift};
 
 use super::curves::{self, Place};
 use super::lengths::Lengths;
@@ -69,7 +69,7 @@ pub fn plan(drawing: &Drawing, faces: &[Face], lift: &Lift, options: &PlanOption
             Orientation::Upright => a,
         })
         .collect();
-    let view = View::new(drawing, rotation)?;
+    let view = View::new(lift.camera, rotation);
     let size = drawing.size();
     let snap_length = (10.0 * lift.residual).clamp(SNAP_LEAST * size, SNAP_MOST * size);
     let lifted: Vec<DVec3> = drawing
@@ -170,6 +170,11 @@ fn check(
     }
     if faces.is_empty() {
         return bad("there are no faces".to_owned());
+    }
+    if let Camera::Central { focal, .. } = lift.camera
+        && !(focal.is_finite() && focal > 0.0)
+    {
+        return bad(format!("the focal length {focal} is not a positive number"));
     }
     if let Some(v) = lift.depths.iter().position(|z| !z.is_finite()) {
         return bad(format!("vertex {v} has no depth"));

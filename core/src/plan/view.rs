@@ -2,28 +2,18 @@
 
 use glam::{DMat3, DVec2, DVec3};
 
-use crate::drawing::{Drawing, Projection};
-
-use super::PlanError;
+use crate::lift::Camera;
 
 /// The projection, and the rotation from the camera frame to the plan's frame.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct View {
     rotation: DMat3,
-    focal: Option<f64>,
+    camera: Camera,
 }
 
 impl View {
-    pub(super) fn new(drawing: &Drawing, rotation: DMat3) -> Result<Self, PlanError> {
-        let focal = match drawing.projection {
-            Projection::Orthographic => None,
-            Projection::Perspective { focal: Some(f) } if f.is_finite() && f > 0.0 => Some(f),
-            Projection::Perspective { .. } => {
-                let what = "a perspective drawing needs its focal length";
-                return Err(PlanError::Input(what.to_owned()));
-            }
-        };
-        Ok(Self { rotation, focal })
+    pub(super) const fn new(camera: Camera, rotation: DMat3) -> Self {
+        Self { rotation, camera }
     }
 
     /// Rotation from the camera frame to the plan's frame.
@@ -33,41 +23,32 @@ impl View {
 
     /// The point that is drawn at `p` and has the depth `z` in the camera frame.
     pub(super) fn place(&self, p: DVec2, z: f64) -> DVec3 {
-        let p = match self.focal {
-            Some(f) => p * (-z / f),
-            None => p,
-        };
-        self.rotation * p.extend(z)
+        self.rotation * self.camera.place(p, z)
     }
 
     /// Whether the projection is parallel.
     pub(super) fn is_parallel(&self) -> bool {
-        self.focal.is_none()
+        self.camera.is_parallel()
     }
 
     /// Where a point is drawn.
     pub(super) fn project(&self, p: DVec3) -> DVec2 {
-        let p = self.rotation.transpose() * p;
-        match self.focal {
-            Some(f) => p.truncate() * (f / -p.z),
-            None => p.truncate(),
-        }
+        self.camera.project(self.rotation.transpose() * p)
     }
 
     /// The line of all points drawn at `p`: a point and a unit direction, away from the viewer in
     /// perspective, towards the viewer else.
     pub(super) fn ray(&self, p: DVec2) -> (DVec3, DVec3) {
-        match self.focal {
-            Some(f) => (DVec3::ZERO, self.rotation * p.extend(-f).normalize()),
-            None => (self.rotation * p.extend(0.0), self.rotation.z_axis),
-        }
+        let (from, direction) = self.camera.ray(p);
+        (self.rotation * from, self.rotation * direction.normalize())
     }
 
     /// Unit direction from a point to the viewer.
     pub(super) fn toward(&self, p: DVec3) -> DVec3 {
-        match self.focal {
-            Some(_) => -p.normalize_or_zero(),
-            None => self.rotation.z_axis,
+        if self.is_parallel() {
+            self.rotation.z_axis
+        } else {
+            -p.normalize_or_zero()
         }
     }
 }

@@ -8,7 +8,7 @@ use super::model_frame::USUAL;
 use super::refine::{Followers, refine};
 use super::{AGREE, Axis, Directions, columns, towards_viewer};
 use crate::drawing::Drawing;
-use crate::lift::LiftError;
+use crate::lift::{Camera, LiftError};
 
 /// Standard errors of coordinates that are tried, in units of the drawing's size: rounded to 1e-6,
 /// to fewer digits, drawn by hand.
@@ -256,6 +256,8 @@ fn frame_reading(
             + if upright { UPRIGHT } else { 0.0 },
         directions: Directions {
             axes: axes.into(),
+            slanted: Vec::new(),
+            camera: Camera::Parallel,
             error: found.error,
             precision: evidence.precision,
         },
@@ -294,6 +296,8 @@ fn axis_reading(evidence: &Evidence, group: &CircleGroup) -> Option<Reading> {
                 edges,
                 circles: group.edges.clone(),
             }],
+            slanted: Vec::new(),
+            camera: Camera::Parallel,
             error,
             precision: evidence.precision,
         },

@@ -5,12 +5,13 @@
 //! Three clusters, a circle and a cluster, or two circles make a hypothesis of a frame (design,
 //! section 4); it is refined as one rotation over all evidence that agrees with it, and the frame
 //! that explains most wins. A part whose circles show one axis only, such as a shaft, gives that
-//! axis alone.
+//! axis alone. Perspective drawings show directions by vanishing points instead (`central`).
 //!
 //! How precise a drawing is, is estimated too: from coordinates rounded to about 1e-6 of the
 //! drawing's size up to those drawn by hand, the precision that explains the drawing in the fewest
 //! bits wins.
 
+mod central;
 mod choose;
 mod evidence;
 mod hypotheses;
@@ -21,7 +22,7 @@ mod tests;
 
 use glam::{DMat3, DVec3};
 
-use super::LiftError;
+use super::{Camera, LiftError};
 use crate::drawing::{Drawing, Projection};
 
 pub(crate) use evidence::{AGREE, Evidence};
@@ -37,11 +38,24 @@ pub struct Axis {
     pub circles: Vec<usize>,
 }
 
+/// A further direction that straight edges have, told by their vanishing point.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Slant {
+    /// Unit vector in the camera frame, of no meaning of its sign.
+    pub direction: DVec3,
+    /// Straight edges (from 0) along it.
+    pub edges: Vec<usize>,
+}
+
 /// The dominant directions of a drawing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Directions {
     /// Three axes at right angles, or one alone.
     pub axes: Vec<Axis>,
+    /// Further directions; none in a parallel projection, which does not show them.
+    pub slanted: Vec<Slant>,
+    /// The projection: parallel, or central with a focal length given or estimated.
+    pub camera: Camera,
     /// Standard error of the axes, radians.
     pub error: f64,
     /// Standard error of the drawing's coordinates, drawing units.
@@ -49,12 +63,12 @@ pub struct Directions {
 }
 
 impl Directions {
-    /// Estimates the directions of an orthographic drawing, reversed in depth so that the model is
-    /// seen from above: the axis that is most vertical on the page has its upper end towards the
-    /// viewer.
+    /// Estimates the directions of a drawing. An orthographic one is reversed in depth so that the
+    /// model is seen from above: the axis that is most vertical on the page has its upper end
+    /// towards the viewer.
     ///
     /// # Errors
-    /// - [`LiftError::Projection`] for a perspective drawing.
+    /// - [`LiftError::Focal`] if nothing tells the focal length of a perspective drawing.
     /// - [`LiftError::DegenerateView`] if the view is too close to an axis or a plane of two axes
     ///   for the drawing's precision.
     /// - [`LiftError::NoDirections`] if neither straight edges nor circles agree on any.
@@ -70,7 +84,7 @@ impl Directions {
     pub(crate) fn candidates(drawing: &Drawing) -> Result<Vec<Self>, LiftError> {
         match drawing.projection {
             Projection::Orthographic => choose::candidates(drawing),
-            Projection::Perspective { .. } => Err(LiftError::Projection("perspective")),
+            Projection::Perspective { focal } => central::candidates(drawing, focal),
         }
     }
 

@@ -1,4 +1,5 @@
-//! The L1 norm through Clarabel: minimise `sum(t)` with `-t <= W (A x - b) <= t`.
+//! The L1 norm through Clarabel: minimise `sum(t)` with `-t <= W (A x - b) <= t` and what
+//! unknowns must not fall below.
 
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{
@@ -38,7 +39,12 @@ pub(super) fn solve<T>(system: &System<T>) -> Result<Vec<f64>, LiftError> {
         rhs[k] = w * row.rhs;
         rhs[m + k] = -w * row.rhs;
     }
-    let constraints = CscMatrix::new_from_triplets(2 * m, n + m, at_row, at_column, values);
+    let floors = system.floors.len();
+    for (k, &(i, least)) in system.floors.iter().enumerate() {
+        entry(2 * m + k, i, -1.0);
+        rhs.push(-least);
+    }
+    let constraints = CscMatrix::new_from_triplets(2 * m + floors, n + m, at_row, at_column, values);
     let quadratic = CscMatrix::new_from_triplets(
         n + m,
         n + m,
@@ -52,7 +58,7 @@ pub(super) fn solve<T>(system: &System<T>) -> Result<Vec<f64>, LiftError> {
         .verbose(false)
         .build()
         .map_err(|e| LiftError::Solver(e.to_string()))?;
-    let cones = [NonnegativeConeT(2 * m)];
+    let cones = [NonnegativeConeT(2 * m + floors)];
     let mut solver = DefaultSolver::new(&quadratic, &cost, &constraints, &rhs, &cones, settings)
         .map_err(|e| LiftError::Solver(e.to_string()))?;
     solver.solve();

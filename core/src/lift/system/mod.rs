@@ -53,6 +53,8 @@ impl<T> Row<T> {
 pub struct System<T> {
     unknowns: usize,
     rows: Vec<Row<T>>,
+    /// Unknowns with their least values; the L1 norm alone heeds them.
+    floors: Vec<(usize, f64)>,
 }
 
 /// What a solve gives.
@@ -83,6 +85,7 @@ impl<T> System<T> {
         Self {
             unknowns,
             rows: Vec::new(),
+            floors: Vec::new(),
         }
     }
 
@@ -95,6 +98,11 @@ impl<T> System<T> {
     pub const fn add_unknown(&mut self) -> usize {
         self.unknowns += 1;
         self.unknowns - 1
+    }
+
+    /// Keeps an unknown from falling below a value in the L1 norm; least squares does not heed it.
+    pub fn bound_below(&mut self, unknown: usize, least: f64) {
+        self.floors.push((unknown, least));
     }
 
     /// The rows.

@@ -1,22 +1,27 @@
 //! A lift made from a drawing's truth, so that planning and building are measured on their own.
 #![allow(unreachable_pub)]
 
-use faceformer::drawing::{Drawing, SurfaceKind, Truth, TruthFace};
-use faceformer::lift::{Lift, LiftMethod, Surface};
-use glam::{DMat3, DVec3};
+use faceformer::drawing::{Drawing, Projection, SurfaceKind, Truth, TruthFace};
+use faceformer::lift::{Camera, Lift, LiftMethod, Surface};
+use glam::{DMat3, DVec2, DVec3};
 
 /// The true depths and surfaces; `None` without a truth.
 pub fn true_lift(drawing: &Drawing) -> Option<Lift> {
     let truth = drawing.truth.as_ref()?;
     let mean = truth.vertices3d.iter().map(|p| p.z).sum::<f64>() / truth.vertices3d.len() as f64;
     // In perspective depth has no free offset.
-    let mean = match drawing.projection {
-        faceformer::drawing::Projection::Orthographic => mean,
-        faceformer::drawing::Projection::Perspective { .. } => 0.0,
+    let (mean, camera) = match drawing.projection {
+        Projection::Orthographic => (mean, Camera::Parallel),
+        Projection::Perspective { focal } => {
+            let principal = DVec2::ZERO;
+            let focal = focal?;
+            (0.0, Camera::Central { principal, focal })
+        }
     };
     let surfaces = truth.faces.iter().map(|face| surface(truth, face, mean));
     Some(Lift {
         depths: truth.vertices3d.iter().map(|p| p.z - mean).collect(),
+        camera,
         surfaces: surfaces.collect(),
         directions: truth.directions.clone(),
         method: LiftMethod::Exact,

@@ -1,0 +1,100 @@
+//! The scale of a perspective drawing, which is free: one height is given, and in the end all are
+//! scaled so that their mean is the focal length. A parallel drawing needs none of it.
+
+use super::rows::{Tag, Unknowns};
+use super::sheet::Sheet;
+use super::system::{NullSpace, System};
+use super::{Camera, LiftError};
+
+/// Vertices that are tried: each try that fails shows a part that holds less than half of all.
+const TRIES: usize = 6;
+
+/// Least height in the L1 norm, as a share of the focal length: nothing is drawn from nearer to the
+/// camera's plane or from farther away than about this many times the usual distance.
+const LOWEST: f64 = 0.02;
+
+/// Gives the height of one vertex of the part that most vertices are tied to, and returns what the
+/// system leaves open then.
+pub(super) fn choose(
+    sheet: &Sheet<'_>,
+    unknowns: &Unknowns,
+    system: &mut System<Tag>,
+) -> Result<NullSpace, LiftError> {
+    let Camera::Central { focal, .. } = *sheet.camera() else {
+        return system.null_space();
+    };
+    for v in unknowns.vertices() {
+        system.bound_below(v, LOWEST * focal);
+    }
+    let weight = sheet.directions.precision.recip();
+    let mut tried = vec![false; sheet.drawing.vertices.len()];
+    let mut best: Option<(usize, usize)> = None;
+    for _ in 0..TRIES {
+        let Some(v) = tried.iter().position(|t| !t) else {
+            break;
+        };
+        system.push([(v, 1.0)], focal, weight, Tag::Gauge);
+        let null_space = system.null_space()?;
+        let mut tied = 0;
+        for (u, tried) in tried.iter_mut().enumerate() {
+            if !null_space.is_free(u) {
+                *tried = true;
+                tied += 1;
+            }
+        }
+        tried[v] = true;
+        if 2 * tied > tried.len() {
+            return Ok(null_space);
+        }
+        system.retain(|row| row.tag != Tag::Gauge);
+        if best.is_none_or(|(_, most)| tied > most) {
+            best = Some((v, tied));
+        }
+    }
+    if let Some((v, _)) = best {
+        system.push([(v, 1.0)], focal, weight, Tag::Gauge);
+    }
+    system.null_space()
+}
+
+/// Scales a solution so that the mean of the heights that are determined is the focal length.
+pub(super) fn rescale(
+    sheet: &Sheet<'_>,
+    null_space: &NullSpace,
+    system: &mut System<Tag>,
+    x: &mut [f64],
+) {
+    let Camera::Central { focal, .. } = *sheet.camera() else {
+        return;
+    };
+    let tied = (0..sheet.drawing.vertices.len()).filter(|&v| !null_space.is_free(v));
+    let (sum, count) = tied.fold((0.0, 0usize), |(sum, n), v| (sum + x[v], n + 1));
+    let factor = focal * count as f64 / sum;
+    if !(factor.is_finite() && factor > 0.0) {
+        return;
+    }
+    x.iter_mut().for_each(|h| *h *= factor);
+    for row in system.rows_mut() {
+        if row.tag == Tag::Gauge {
+            row.rhs *= factor;
+        }
+    }
+}
+
+/// Whether all vertices are in front of the camera.
+///
+/// # Errors
+/// [`LiftError::Behind`] names those that are not.
+pub(super) fn in_front(sheet: &Sheet<'_>, x: &[f64]) -> Result<(), LiftError> {
+    let Camera::Central { focal, .. } = *sheet.camera() else {
+        return Ok(());
+    };
+    let vertices: Vec<usize> = (0..sheet.drawing.vertices.len())
+        .filter(|&v| x[v].is_nan() || x[v] < 0.5 * LOWEST * focal)
+        .collect();
+    if vertices.is_empty() {
+        Ok(())
+    } else {
+        Err(LiftError::Behind { vertices })
+    }
+}
