@@ -15,24 +15,20 @@ use crate::drawing::{Curve2, SurfaceKind};
 pub(super) type Level = fn(&Sheet<'_>, &Unknowns, &mut System<Tag>);
 
 /// The sets, surest first.
-pub(super) const LEVELS: [Level; 6] = [
+pub(super) const LEVELS: [Level; 7] = [
     parallel,
     prisms,
     revolved::on_one_axis,
     revolved::on_cylinder,
     generators,
     frustums,
+    pencils,
 ];
 
 /// Edges that are drawn parallel are parallel: their rises are as their drawn lengths.
 fn parallel(sheet: &Sheet<'_>, _: &Unknowns, system: &mut System<Tag>) {
     // A vanishing point says more: the direction itself.
-    for slant in &sheet.directions.slanted {
-        for &edge in &slant.edges {
-            let v = sheet.drawing.edges[edge].v;
-            along(sheet, v, slant.direction, Tag::Parallel { edge }, system);
-        }
-    }
+    slanted(sheet, true, system);
     let ends = |edge: usize| {
         let [u, v] = sheet.drawing.edges[edge].v;
         (u, v, sheet.drawing.vertices[v] - sheet.drawing.vertices[u])
@@ -50,6 +46,22 @@ fn parallel(sheet: &Sheet<'_>, _: &Unknowns, system: &mut System<Tag>) {
             // A rise of about the length, off by the end points' error.
             let error = 4.0 * precision * (1.0 + share.abs());
             system.push(terms, 0.0, error.recip(), Tag::Parallel { edge });
+        }
+    }
+}
+
+/// Edges through a common vanishing point are parallel. Those of a pyramid may look so too, so that
+/// other rules go first.
+fn pencils(sheet: &Sheet<'_>, _: &Unknowns, system: &mut System<Tag>) {
+    slanted(sheet, false, system);
+}
+
+fn slanted(sheet: &Sheet<'_>, usual: bool, system: &mut System<Tag>) {
+    let slants = sheet.directions.slanted.iter();
+    for slant in slants.filter(|s| s.usual == usual) {
+        for &edge in &slant.edges {
+            let v = sheet.drawing.edges[edge].v;
+            along(sheet, v, slant.direction, Tag::Parallel { edge }, system);
         }
     }
 }
@@ -72,12 +84,8 @@ fn prisms(sheet: &Sheet<'_>, unknowns: &Unknowns, system: &mut System<Tag>) {
 }
 
 /// The end of a frustum, whose edges follow two axes, is centred over the vertices that its oblique
-/// edges lead to if it is drawn so: the mean of these edges follows the third axis. A central
-/// projection does not draw means as means, and says nothing of this kind.
+/// edges lead to if it is drawn so: the mean of these edges follows the third axis.
 fn frustums(sheet: &Sheet<'_>, _: &Unknowns, system: &mut System<Tag>) {
-    if !sheet.camera().is_parallel() {
-        return;
-    }
     for face in 0..sheet.faces.len() {
         let Some(normal) = sheet.normal_axis(face) else {
             continue;
@@ -95,6 +103,11 @@ fn frustums(sheet: &Sheet<'_>, _: &Unknowns, system: &mut System<Tag>) {
             let [a, b] = sheet.drawing.edges[e].v;
             if a == v { b } else { a }
         };
+        if !sheet.camera().is_parallel() {
+            let leaving: Vec<[usize; 2]> = leaving.iter().map(|l| [l.0, far(l)]).collect();
+            central_frustum(sheet, face, normal, &leaving, system);
+            continue;
+        }
         let share = (leaving.len() as f64).recip();
         let at = |v: usize| sheet.drawing.vertices[v];
         let mean: DVec2 = leaving.iter().map(|l| at(far(l)) - at(l.0)).sum::<DVec2>() * share;
@@ -111,6 +124,52 @@ fn frustums(sheet: &Sheet<'_>, _: &Unknowns, system: &mut System<Tag>) {
             let weight = drawn.length() / (4.0 * error);
             system.push(terms, rise, weight, Tag::Frustum { face });
         }
+    }
+}
+
+/// The same in a central projection, where the far vertices have to lie in a plane parallel to the
+/// face: then the middles of both are drawn at known points.
+fn central_frustum(
+    sheet: &Sheet<'_>,
+    face: usize,
+    normal: usize,
+    leaving: &[[usize; 2]],
+    system: &mut System<Tag>,
+) {
+    let axis = sheet.axis(normal);
+    let far: Vec<usize> = leaving.iter().map(|l| l[1]).collect();
+    let across = |e: &usize| {
+        let v = sheet.drawing.edges[*e].v;
+        let level = sheet.edge_axis[*e].is_some_and(|k| k != normal);
+        level && v.iter().all(|v| far.contains(v))
+    };
+    let joined = (0..sheet.drawing.edges.len()).filter(across).count();
+    if joined + 1 < far.len() {
+        return;
+    }
+    let middle = |end: usize| {
+        let sum: DVec3 = leaving
+            .iter()
+            .map(|l| {
+                let (_, ray) = sheet.camera().ray(sheet.drawing.vertices[l[end]]);
+                ray / axis.dot(ray)
+            })
+            .sum();
+        // In front of the camera, whichever way the axis points.
+        sheet.camera().project(if sum.z > 0.0 { -sum } else { sum })
+    };
+    let (near, distant) = (middle(0), middle(1));
+    let apart = distant - near;
+    let drawn = sheet.camera().drawn(axis, near.midpoint(distant));
+    let length = drawn.length();
+    let off = apart.perp_dot(drawn).abs() / length;
+    let error = 2.0 * sheet.directions.precision + sheet.directions.error * apart.length() / length;
+    if off < AGREE * error {
+        let [from, to] = [(0, near), (1, distant)]
+            .map(|(end, at)| Depth::across(sheet, leaving[0][end], axis, at));
+        let row = sheet.camera().along(axis, near, distant);
+        let weight = length / (4.0 * error);
+        from.relate(&to, row, weight, Tag::Frustum { face }, system);
     }
 }
 

@@ -45,6 +45,9 @@ pub struct Slant {
     pub direction: DVec3,
     /// Straight edges (from 0) along it.
     pub edges: Vec<usize>,
+    /// Whether it makes a usual angle with two axes and a right one with the third. If not, the
+    /// edges may as well meet in a point of space.
+    pub usual: bool,
 }
 
 /// The dominant directions of a drawing.

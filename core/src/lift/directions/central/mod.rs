@@ -102,7 +102,11 @@ pub(super) fn candidates(
         .flat_map(|(_, readings)| readings)
         .filter(|r| r.directions.error < MAX_ERROR)
         .take(READINGS)
-        .map(|r| r.directions)
+        .map(|mut r| {
+            let lines = Lines::new(drawing, r.directions.precision);
+            reading::add_pencils(&lines, &mut r.directions);
+            r.directions
+        })
         .collect();
     match (good.is_empty(), right_angles) {
         (false, _) => Ok(good),

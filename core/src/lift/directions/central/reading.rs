@@ -122,6 +122,7 @@ fn frame_reading(lines: &Lines, round: &[Circle], f: &Fitted, open: Open) -> Opt
                 None => slanted.push(Slant {
                     direction,
                     edges: vec![line.edge],
+                    usual: true,
                 }),
             }
         }
@@ -141,7 +142,6 @@ fn frame_reading(lines: &Lines, round: &[Circle], f: &Fitted, open: Open) -> Opt
         let sideways = a.direction.x.abs();
         sideways < AGREE * f.error && a.direction.y.abs() > 0.1
     });
-    slanted.extend(rest(lines, &f.camera, &f.followers));
     (bare < 2).then(|| Reading {
         score: explained(lines, round, &f.followers) + if upright { UPRIGHT } else { 0.0 },
         votes,
@@ -155,18 +155,19 @@ fn frame_reading(lines: &Lines, round: &[Circle], f: &Fitted, open: Open) -> Opt
     })
 }
 
-/// Pencils of the lines that follow nothing else.
-fn rest(lines: &Lines, camera: &Camera, followers: &Followers) -> Vec<Slant> {
-    let used: Vec<bool> = followers.lines.iter().map(Option::is_some).collect();
-    slants(lines, pencils(lines, camera, &used))
-}
-
-fn slants(lines: &Lines, found: Vec<Pencil>) -> Vec<Slant> {
+/// Adds pencils of the lines that follow nothing else.
+pub(super) fn add_pencils(lines: &Lines, directions: &mut Directions) {
+    let of_axes = directions.axes.iter().map(|a| &a.edges);
+    let of_slants = directions.slanted.iter().map(|s| &s.edges);
+    let used: Vec<usize> = of_axes.chain(of_slants).flatten().copied().collect();
+    let used: Vec<bool> = lines.all.iter().map(|l| used.contains(&l.edge)).collect();
     let slant = |p: Pencil| Slant {
         direction: p.direction,
         edges: p.members.iter().map(|&i| lines.all[i].edge).collect(),
+        usual: false,
     };
-    found.into_iter().map(slant).collect()
+    let found = pencils(lines, &directions.camera, &used);
+    directions.slanted.extend(found.into_iter().map(slant));
 }
 
 /// One axis alone, of circles and the lines along it.
@@ -208,7 +209,7 @@ fn axis_reading(
         votes: (axis.edges.len() + 2 * axis.circles.len()) as f64 - 2.0,
         directions: Directions {
             axes: vec![axis],
-            slanted: slants(lines, pencils(lines, &camera, &along)),
+            slanted: Vec::new(),
             camera,
             error,
             precision: lines.precision,
