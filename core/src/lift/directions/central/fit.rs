@@ -77,21 +77,23 @@ pub(super) fn fit(
     open: Open,
 ) -> Option<Fitted> {
     let mut now = Fitted {
-        followers: Followers::new(lines, circles, &camera, &frame, error),
+        followers: Followers::of_axes(lines, circles, &camera, &frame, error),
         frame,
         camera,
         error,
     };
     for _ in 0..STEPS {
-        let axes = now.followers.clone().without_slanted();
-        let (step, error) = improve(lines, circles, &axes, &now, open)
-            .or_else(|| improve(lines, circles, &now.followers, &now, open))?;
+        let (step, error) = improve(lines, circles, &now.followers, &now, open).or_else(|| {
+            let (camera, frame) = (&now.camera, &now.frame);
+            let all = Followers::with_slanted(lines, circles, camera, frame, now.error);
+            improve(lines, circles, &all, &now, open)
+        })?;
         let (frame, camera) = moved(&now.frame, &now.camera, &step);
         if !frame.is_finite() || error.is_nan() || error > LOST {
             return None;
         }
         let largest = step.iter().fold(0.0, |m: f64, s| m.max(s.abs()));
-        let followers = Followers::new(lines, circles, &camera, &frame, error);
+        let followers = Followers::of_axes(lines, circles, &camera, &frame, error);
         let settled = largest < 1e-3 * error && followers == now.followers;
         now = Fitted {
             frame,
@@ -103,6 +105,7 @@ pub(super) fn fit(
             break;
         }
     }
+    now.followers = Followers::with_slanted(lines, circles, &now.camera, &now.frame, now.error);
     Some(now)
 }
 

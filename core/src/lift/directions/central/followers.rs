@@ -1,6 +1,6 @@
 //! What follows a frame in a perspective drawing.
 
-use glam::DMat3;
+use glam::{DMat3, DVec3};
 
 use super::circles::Circle;
 use super::lines::Lines;
@@ -19,8 +19,8 @@ pub(super) struct Followers {
 
 impl Followers {
     /// What agrees with a frame that is known to `error` radians. What two axes would explain
-    /// follows neither; slanted directions are asked only where no axis explains a line.
-    pub(super) fn new(
+    /// follows neither.
+    pub(super) fn of_axes(
         lines: &Lines,
         circles: &[Circle],
         camera: &Camera,
@@ -28,24 +28,11 @@ impl Followers {
         error: f64,
     ) -> Self {
         let line = |line| {
-            let along =
-                |i: &usize| lines.follows(camera, line, *frame * USUAL[*i].direction, error);
-            match only((0..3).filter(along)) {
-                Ok(found) => found,
-                Err(Several) => None,
-            }
-            .or_else(|| {
-                let none = !(0..3).any(|i| along(&i));
-                let sharp = lines.slant_error(line) + error < SHARP;
-                (none && sharp)
-                    .then(|| only((3..USUAL.len()).filter(along)).ok().flatten())
-                    .flatten()
-            })
+            let along = |k: &usize| lines.follows(camera, line, frame.col(*k), error);
+            only((0..3).filter(along))
         };
         let circle = |c: &Circle| {
             only((0..3).filter(|&k| c.agreeing(frame.col(k), error).is_some()))
-                .ok()
-                .flatten()
         };
         Self {
             lines: lines.all.iter().map(line).collect(),
@@ -53,12 +40,24 @@ impl Followers {
         }
     }
 
-    /// Without the lines in slanted directions.
-    pub(super) fn without_slanted(mut self) -> Self {
-        for line in &mut self.lines {
-            *line = line.filter(|&i| i < 3);
+    /// The same with slanted directions, for lines that no axis explains.
+    pub(super) fn with_slanted(
+        lines: &Lines,
+        circles: &[Circle],
+        camera: &Camera,
+        frame: &DMat3,
+        error: f64,
+    ) -> Self {
+        let usual: Vec<DVec3> = USUAL.iter().map(|u| *frame * u.direction).collect();
+        let mut found = Self::of_axes(lines, circles, camera, frame, error);
+        for (line, follows) in lines.all.iter().zip(&mut found.lines) {
+            let along = |i: &usize| lines.follows(camera, line, usual[*i], error);
+            let sharp = lines.slant_error(line) + error < SHARP;
+            if follows.is_none() && sharp && !(0..3).any(|k| along(&k)) {
+                *follows = only((3..usual.len()).filter(along));
+            }
         }
-        self
+        found
     }
 
     /// How many numbers the followers fix.
@@ -67,11 +66,9 @@ impl Followers {
     }
 }
 
-struct Several;
-
-fn only(mut all: impl Iterator<Item = usize>) -> Result<Option<usize>, Several> {
+fn only(mut all: impl Iterator<Item = usize>) -> Option<usize> {
     match (all.next(), all.next()) {
-        (found, None) => Ok(found),
-        _ => Err(Several),
+        (found, None) => found,
+        _ => None,
     }
 }

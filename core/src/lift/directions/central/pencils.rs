@@ -38,18 +38,29 @@ pub(super) fn pencils(lines: &Lines, camera: &Camera, used: &[bool]) -> Vec<Penc
     let voters: Vec<usize> = (0..lines.all.len()).filter(free).take(VOTING).collect();
     let paired = &voters[..voters.len().min(PAIRED)];
     let mut starts: Vec<Pencil> = Vec::new();
+    // Pairs that a pencil holds: they would give it again.
+    let mut held = vec![[false; PAIRED]; paired.len()];
     for (k, &i) in paired.iter().enumerate() {
         let (n, n_error) = lines.plane(camera, &lines.all[i]);
-        for &j in &paired[k + 1..] {
-            if meet(&lines.all[i], &lines.all[j]) {
+        for (l, &j) in paired.iter().enumerate().skip(k + 1) {
+            if held[k][l] || meet(&lines.all[i], &lines.all[j]) {
                 continue;
             }
             let (m, m_error) = lines.plane(camera, &lines.all[j]);
             let cross = n.cross(m);
             let error = (n_error + m_error) / cross.length();
-            if error < VAGUE {
-                starts.extend(gather(lines, camera, &voters, cross.normalize(), error));
+            if error >= VAGUE {
+                continue;
             }
+            let Some(start) = gather(lines, camera, &voters, cross.normalize(), error) else {
+                continue;
+            };
+            let at = |m: &usize| paired.iter().position(|p| p == m);
+            let inside: Vec<usize> = start.members.iter().filter_map(at).collect();
+            for (s, &a) in inside.iter().enumerate() {
+                inside[s + 1..].iter().for_each(|&b| held[a][b] = true);
+            }
+            starts.push(start);
         }
     }
     starts.sort_by(|a, b| b.salience.total_cmp(&a.salience));

@@ -55,7 +55,7 @@ pub(super) fn readings(
     let mut starts: Vec<(f64, DMat3, f64)> = Vec::new();
     for (axis, error) in axes.chain(around) {
         for (frame, error) in frames::around(lines, &camera, axis, error) {
-            let followers = Followers::new(lines, &round, &camera, &frame, error);
+            let followers = Followers::of_axes(lines, &round, &camera, &frame, error);
             starts.push((explained(lines, &round, &followers), frame, error));
         }
     }
