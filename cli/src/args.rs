@@ -149,6 +149,15 @@ pub(crate) struct EvalArgs {
     /// Which drawings to measure
     #[arg(long, value_enum, default_value_t = Shapes::All)]
     pub(crate) shapes: Shapes,
+    /// Make K faces of each drawing wrong on purpose, lift, and look whether they are named
+    #[arg(long, value_name = "K", requires = "solids", conflicts_with = "noise")]
+    pub(crate) corrupt: Option<usize>,
+    /// Shake the coordinates by normal noise of P percent of the drawing's size
+    #[arg(long, value_name = "P", requires = "solids")]
+    pub(crate) noise: Option<f64>,
+    /// Seed of what is spoilt on purpose
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub(crate) seed: u64,
     /// Print one JSON object
     #[arg(long)]
     pub(crate) json: bool,

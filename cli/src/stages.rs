@@ -132,10 +132,7 @@ pub(crate) fn raise(
     let lifted = lift(drawing, &found.faces, &options, Progress::none())?;
     for conflict in &lifted.conflicts {
         eprintln!(
-            "faceformer: warning: face {} does not fit the others: its vertices {:?} lie up to \
-             {:.2e} off its surface",
-            conflict.face + 1,
-            conflict.vertices,
+            "faceformer: warning: {conflict}, {:.2e} off its surface",
             conflict.residual
         );
     }

@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use faceformer::identify::metrics::{Summary, median};
 use serde::Serialize;
 
-use super::measure::Measured;
+use super::measure::{Corrupted, Measured};
 
 /// What `eval --json` prints. Shares are 0 to 100, times are milliseconds.
 #[derive(Debug, Clone, Copy, Serialize)]
@@ -15,6 +15,37 @@ pub(crate) struct Figures {
     summary: Summary,
     #[serde(flatten)]
     solids: Option<SolidFigures>,
+    #[serde(flatten)]
+    corrupted: Option<CorruptedFigures>,
+}
+
+/// The further figures with `--corrupt`.
+#[derive(Debug, Clone, Copy, Serialize)]
+struct CorruptedFigures {
+    /// Faces made wrong, over all drawings.
+    corrupted: usize,
+    /// Share of these that lifting names.
+    named: f64,
+    /// Share of drawings in which lifting names all of them.
+    all_named: f64,
+    /// Mean number of other faces that lifting names.
+    accused: f64,
+}
+
+impl CorruptedFigures {
+    fn of(measured: &[Measured]) -> Option<Self> {
+        let all: Vec<Corrupted> = measured.iter().filter_map(|m| m.corrupted).collect();
+        let sum = |f: fn(&Corrupted) -> usize| all.iter().map(f).sum::<usize>();
+        let (corrupted, named) = (sum(|c| c.wrong), sum(|c| c.named));
+        let count = all.len().max(1) as f64;
+        let complete = all.iter().filter(|c| c.named == c.wrong).count();
+        (!all.is_empty()).then(|| Self {
+            corrupted,
+            named: 100.0 * named as f64 / corrupted.max(1) as f64,
+            all_named: 100.0 * complete as f64 / count,
+            accused: sum(|c| c.accused) as f64 / count,
+        })
+    }
 }
 
 /// The further figures with `--solids`.
@@ -44,6 +75,7 @@ impl Figures {
         };
         Self {
             summary: measured.iter().map(|m| &m.score).collect(),
+            corrupted: CorruptedFigures::of(measured),
             solids: solids.then(|| SolidFigures {
                 lifted: share(|m| m.lifted),
                 valid: share(|m| m.valid),
@@ -84,6 +116,14 @@ impl Figures {
                 "solids  lifted    {:6.2}   valid  {:6.2}\n\
                  time    lift median {:.3} ms   solid median {:.3} ms",
                 s.lifted, s.valid, s.lift_ms_median, s.solid_ms_median
+            )
+            .ok();
+        }
+        if let Some(c) = &self.corrupted {
+            writeln!(
+                text,
+                "wrong   faces {}   named {:6.2}   all named {:6.2}   others named {:.2} a drawing",
+                c.corrupted, c.named, c.all_named, c.accused
             )
             .ok();
         }
@@ -151,6 +191,7 @@ mod tests {
             valid: false,
             lift_ms: lifted.then_some(3.0),
             solid_ms: None,
+            corrupted: None,
             failed: messages
                 .iter()
                 .map(|message| Failed {

@@ -11,6 +11,8 @@ use faceformer::plan::{PlanOptions, plan};
 use faceformer_occt::build;
 use serde::Serialize;
 
+use super::random::Random;
+use super::spoil::corrupt;
 use crate::stages::FacesFrom;
 
 /// Largest depth error of a drawing that counts as lifted, in drawing units (the half diagonal of
@@ -22,7 +24,8 @@ const DEPTH_TOLERANCE: f64 = 1e-3;
 pub(crate) struct Failed {
     /// The drawing.
     pub(crate) id: String,
-    /// `identify`, `lift`, `depth` (lifted, but not as in the truth), `plan` or `build`.
+    /// `identify`, `lift`, `depth` (lifted, but not as in the truth), `conflict` (a wrong face is not
+    /// named), `plan` or `build`.
     pub(crate) stage: &'static str,
     /// Why.
     pub(crate) message: String,
@@ -44,6 +47,19 @@ pub(crate) struct Measured {
     pub(crate) solid_ms: Option<f64>,
     /// What went wrong, in the order of the stages.
     pub(crate) failed: Vec<Failed>,
+    /// What lifting said of faces that were made wrong on purpose.
+    pub(crate) corrupted: Option<Corrupted>,
+}
+
+/// What lifting said of faces that were made wrong on purpose.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Corrupted {
+    /// Faces made wrong.
+    pub(crate) wrong: usize,
+    /// Those of them that are in the report.
+    pub(crate) named: usize,
+    /// Other faces in the report.
+    pub(crate) accused: usize,
 }
 
 /// Takes a drawing through identification and, with `solids`, to its solid.
@@ -78,11 +94,62 @@ pub(crate) fn measure(
         lift_ms: None,
         solid_ms: None,
         failed: Vec::new(),
+        corrupted: None,
     };
     if let (Ok(found), true) = (&found, solids) {
         measure_solid(drawing, truth, found, &mut measured, &mut fail);
     }
     measured.failed = failed;
+    measured
+}
+
+/// Makes faces wrong and lifts; there is no solid to build of them.
+pub(crate) fn measure_corrupted(
+    drawing: &Drawing,
+    truth: &Truth,
+    faces: &FacesFrom,
+    count: usize,
+    random: &mut Random,
+) -> Measured {
+    let mut measured = measure(drawing, truth, faces, false);
+    let Ok(found) = faces.faces(drawing) else {
+        return measured;
+    };
+    let mut faces = found.faces;
+    let wrong = corrupt(&mut faces, count, random);
+    let mut report = Corrupted {
+        wrong: wrong.len(),
+        named: 0,
+        accused: 0,
+    };
+    let mut fail = |stage, message| {
+        measured.failed.push(Failed {
+            id: drawing.id.clone(),
+            stage,
+            message,
+        });
+    };
+    let start = Instant::now();
+    match lift(drawing, &faces, &LiftOptions::default(), Progress::none()) {
+        Ok(lifted) => {
+            measured.lift_ms = Some(milliseconds(start));
+            let error = depth_error(&lifted, truth);
+            measured.lifted = error <= DEPTH_TOLERANCE;
+            if !measured.lifted {
+                fail("depth", format!("the depths are up to {error:.1e} off"));
+            }
+            let named = |f: &usize| lifted.conflicts.iter().any(|c| c.face == *f);
+            report.named = wrong.iter().filter(|f| named(f)).count();
+            report.accused = lifted.conflicts.len() - report.named;
+            if report.named < report.wrong {
+                let missed: Vec<usize> =
+                    wrong.iter().filter(|f| !named(f)).map(|f| f + 1).collect();
+                fail("conflict", format!("wrong faces {missed:?} are not named"));
+            }
+        }
+        Err(error) => fail("lift", error.to_string()),
+    }
+    measured.corrupted = Some(report);
     measured
 }
 

@@ -3,6 +3,8 @@
 mod bar;
 mod figures;
 mod measure;
+mod random;
+mod spoil;
 
 use faceformer::drawing::dataset::Drawings;
 use faceformer::drawing::{DrawingError, SurfaceKind, Truth};
@@ -13,7 +15,8 @@ use crate::output::{Output, finish, json_line, print};
 use crate::stages::FacesFrom;
 use bar::Bar;
 use figures::Figures;
-use measure::{Measured, measure};
+use measure::{Measured, measure, measure_corrupted};
+use random::Random;
 
 /// Measures a data set and prints the figures.
 ///
@@ -24,6 +27,13 @@ pub(crate) fn run(args: &EvalArgs) -> Result<(), Failure> {
     if let FacesFrom::File(name) = &faces {
         return Err(Failure::Usage(format!(
             "{name} holds the faces of one drawing; eval takes --faces truth, or --engine"
+        )));
+    }
+    if let Some(percent) = args.noise
+        && !(percent.is_finite() && percent > 0.0)
+    {
+        return Err(Failure::Usage(format!(
+            "--noise must be a positive percentage, and is {percent}"
         )));
     }
     let failures = args.failures.as_deref().map(Output::create).transpose()?;
@@ -49,7 +59,16 @@ pub(crate) fn run(args: &EvalArgs) -> Result<(), Failure> {
         if !selected(args.shapes, truth) {
             continue;
         }
-        measured.push(measure(&drawing, truth, &faces, args.solids));
+        let mut random = Random::new(args.seed, &drawing.id);
+        measured.push(match (args.corrupt, args.noise) {
+            (Some(count), _) => measure_corrupted(&drawing, truth, &faces, count, &mut random),
+            (None, Some(percent)) => {
+                let mut shaken = drawing.clone();
+                spoil::shake(&mut shaken, percent / 100.0, &mut random);
+                measure(&shaken, truth, &faces, args.solids)
+            }
+            (None, None) => measure(&drawing, truth, &faces, args.solids),
+        });
         bar.advance(measured.len());
     }
     bar.clear();

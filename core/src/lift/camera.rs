@@ -90,9 +90,7 @@ impl Camera {
     pub(crate) fn facing(&self, n: DVec3, p: DVec2) -> f64 {
         match *self {
             Self::Parallel => n.z,
-            Self::Central { principal, focal } => {
-                n.z - n.truncate().dot(p - principal) / focal
-            }
+            Self::Central { principal, focal } => n.z - n.truncate().dot(p - principal) / focal,
         }
     }
 

@@ -139,7 +139,10 @@ mod tests {
             .map(|i| DVec2::new(f64::from(i), 2.0 * f64::from(i)))
             .collect();
         assert_eq!(circle_through(&points, DVec3::Z, &Camera::Parallel), None);
-        assert_eq!(circle_through(&points[..2], DVec3::Z, &Camera::Parallel), None);
+        assert_eq!(
+            circle_through(&points[..2], DVec3::Z, &Camera::Parallel),
+            None
+        );
         assert_eq!(circle_through(&points, DVec3::X, &Camera::Parallel), None);
     }
 }

@@ -1,47 +1,104 @@
 //! Faces that the lifted depths contradict.
+//!
+//! - A planar face's vertices lie in its plane.
+//! - A cylinder's straight edges are along its axis.
+//! - No face has both co-edges of an edge, or one of them twice.
+
+use glam::DVec3;
 
 use super::sheet::Sheet;
 use super::{Conflict, Surface};
+use crate::drawing::SurfaceKind;
 
-/// Distance of a vertex from its face's plane, in standard errors of a coordinate, from which on it
-/// is off the plane.
+/// Distance, in standard errors of a coordinate, from which on a vertex is off its surface.
 const OFF: f64 = 50.0;
 
-/// Conflicts of planar faces, given all depths and surfaces.
+/// Conflicts of all faces, given depths and surfaces.
 pub(super) fn conflicts(sheet: &Sheet<'_>, depths: &[f64], surfaces: &[Surface]) -> Vec<Conflict> {
     let limit = OFF * sheet.directions.precision;
     let mut faces_at: Vec<Vec<usize>> = vec![Vec::new(); depths.len()];
     for (face, corners) in sheet.corners.iter().enumerate() {
         corners.iter().for_each(|&v| faces_at[v].push(face));
     }
+    let place = |v: usize| sheet.camera().place(sheet.drawing.vertices[v], depths[v]);
     let mut all = Vec::new();
     for (face, surface) in surfaces.iter().enumerate() {
-        let Surface::Plane { origin, normal } = surface else {
-            continue;
+        let mut off: Vec<(usize, f64)> = match surface {
+            Surface::Plane { origin, normal } => {
+                let distance = |v: usize| (place(v) - *origin).dot(*normal).abs();
+                let corners = sheet.corners[face].iter();
+                corners.map(|&v| (v, distance(v))).collect()
+            }
+            _ if sheet.faces[face].kind == SurfaceKind::Cylinder => askew(sheet, face, &place),
+            _ => Vec::new(),
         };
-        let off = |v: usize| {
-            let p = sheet.camera().place(sheet.drawing.vertices[v], depths[v]);
-            (p - *origin).dot(*normal).abs()
-        };
-        let corners = &sheet.corners[face];
-        let vertices: Vec<usize> = corners
-            .iter()
-            .copied()
-            .filter(|&v| off(v) > limit)
-            .collect();
-        if vertices.is_empty() {
+        off.retain(|(_, distance)| *distance > limit);
+        off.extend(doubled(sheet, face));
+        if off.is_empty() {
             continue;
         }
+        let residual = off.iter().map(|o| o.1).fold(0.0, f64::max);
+        let mut vertices: Vec<usize> = off.iter().map(|o| o.0).collect();
+        vertices.sort_unstable();
+        vertices.dedup();
         let mut others: Vec<usize> = vertices.iter().flat_map(|&v| faces_at[v].clone()).collect();
         others.sort_unstable();
         others.dedup();
         others.retain(|&f| f != face);
         all.push(Conflict {
             face,
-            residual: vertices.iter().map(|&v| off(v)).fold(0.0, f64::max),
             vertices,
             others,
+            residual,
         });
     }
     all
+}
+
+/// Ends of the straight edges that are not along a cylinder's axis, with how much they are off: the
+/// axis that most edges and circles of the face show.
+fn askew(sheet: &Sheet<'_>, face: usize, place: &dyn Fn(usize) -> DVec3) -> Vec<(usize, f64)> {
+    let edges = sheet.edges_of(face);
+    let straight: Vec<([usize; 2], DVec3)> = edges
+        .iter()
+        .filter(|&&e| sheet.is_straight(e))
+        .map(|&e| {
+            let [a, b] = sheet.drawing.edges[e].v;
+            ([a, b], place(b) - place(a))
+        })
+        .collect();
+    let circles: Vec<DVec3> = edges
+        .iter()
+        .filter_map(|&e| Some(sheet.axis(sheet.circles[e].as_ref()?.0)))
+        .collect();
+    let limit = OFF * sheet.directions.precision;
+    let aside = |d: &DVec3, axis: DVec3| d.cross(axis).length();
+    let votes = |axis: DVec3| {
+        let lines = straight.iter().filter(|(_, d)| aside(d, axis) < limit);
+        let round = circles.iter().filter(|n| n.cross(axis).length() < 1e-6);
+        lines.count() + 2 * round.count()
+    };
+    let directions = straight.iter().filter_map(|(_, d)| d.try_normalize());
+    let Some(axis) = circles
+        .iter()
+        .copied()
+        .chain(directions)
+        .max_by_key(|a| votes(*a))
+    else {
+        return Vec::new();
+    };
+    let off = |(ends, d): &([usize; 2], DVec3)| ends.map(|v| (v, aside(d, axis)));
+    straight.iter().flat_map(off).collect()
+}
+
+/// Ends of edges that a face holds twice.
+fn doubled(sheet: &Sheet<'_>, face: usize) -> Vec<(usize, f64)> {
+    let edges = sheet.faces[face].loops.iter().flatten().map(|c| c.edge());
+    let mut edges: Vec<usize> = edges.filter(|&e| e < sheet.drawing.edges.len()).collect();
+    edges.sort_unstable();
+    let twice = edges.windows(2).filter(|w| w[0] == w[1]);
+    twice
+        .flat_map(|w| sheet.drawing.edges[w[0]].v)
+        .map(|v| (v, 0.0))
+        .collect()
 }

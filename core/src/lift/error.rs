@@ -42,7 +42,9 @@ pub enum LiftError {
         directions: usize,
     },
     /// There is no mirror image in depth to take.
-    #[error("a perspective drawing has one reading in depth, no reversal; lift it without flipping")]
+    #[error(
+        "a perspective drawing has one reading in depth, no reversal; lift it without flipping"
+    )]
     NoReversal,
     /// The solver gave up.
     #[error("the depth problem could not be solved: {0}")]

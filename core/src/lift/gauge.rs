@@ -44,6 +44,7 @@ pub(super) fn choose(
         }
         tried[v] = true;
         if 2 * tied > tried.len() {
+            fix_mean(focal, &null_space, system, tried.len());
             return Ok(null_space);
         }
         system.retain(|row| row.tag != Tag::Gauge);
@@ -54,7 +55,24 @@ pub(super) fn choose(
     if let Some((v, _)) = best {
         system.push([(v, 1.0)], focal, weight, Tag::Gauge);
     }
-    system.null_space()
+    let null_space = system.null_space()?;
+    fix_mean(focal, &null_space, system, tried.len());
+    Ok(null_space)
+}
+
+/// In the L1 norm the mean height is given instead of that of one vertex, which may be where the
+/// rows conflict.
+fn fix_mean(focal: f64, null_space: &NullSpace, system: &mut System<Tag>, vertices: usize) {
+    let tied: Vec<usize> = (0..vertices).filter(|&v| !null_space.is_free(v)).collect();
+    let sum = focal * tied.len() as f64;
+    system.fix_sum(tied, sum);
+}
+
+/// Takes the weight of the one vertex' row away.
+pub(super) fn release(system: &mut System<Tag>) {
+    let rows = system.rows_mut().iter_mut();
+    rows.filter(|row| row.tag == Tag::Gauge)
+        .for_each(|row| row.weight = 0.0);
 }
 
 /// Scales a solution so that the mean of the heights that are determined is the focal length.

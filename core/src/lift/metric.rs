@@ -12,7 +12,12 @@ pub fn depth_error(lift: &Lift, truth: &Truth) -> f64 {
     if lift.depths.is_empty() || lift.depths.len() != truth.vertices3d.len() {
         return f64::INFINITY;
     }
-    let pairs = || lift.depths.iter().copied().zip(truth.vertices3d.iter().map(|t| t.z));
+    let pairs = || {
+        lift.depths
+            .iter()
+            .copied()
+            .zip(truth.vertices3d.iter().map(|t| t.z))
+    };
     match lift.camera {
         Camera::Parallel => spread(pairs()).min(spread(pairs().map(|(z, t)| (-z, t)))),
         Camera::Central { .. } => scaled(&pairs().collect::<Vec<_>>()),
@@ -21,10 +26,11 @@ pub fn depth_error(lift: &Lift, truth: &Truth) -> f64 {
 
 /// Largest difference after the best offset, which leaves half of the range on either side.
 fn spread(pairs: impl Iterator<Item = (f64, f64)>) -> f64 {
-    let (low, high) = pairs.map(|(z, t)| z - t).fold(
-        (f64::INFINITY, f64::NEG_INFINITY),
-        |(low, high), d| (low.min(d), high.max(d)),
-    );
+    let (low, high) = pairs
+        .map(|(z, t)| z - t)
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), d| {
+            (low.min(d), high.max(d))
+        });
     (high - low) / 2.0
 }
 
@@ -50,5 +56,9 @@ fn scaled(pairs: &[(f64, f64)]) -> f64 {
         }
     }
     let found = worst(f64::midpoint(low, high));
-    if found.is_finite() { found } else { f64::INFINITY }
+    if found.is_finite() {
+        found
+    } else {
+        f64::INFINITY
+    }
 }

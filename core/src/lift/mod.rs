@@ -20,12 +20,15 @@ mod revolved;
 mod rows;
 mod sheet;
 mod solve;
+mod split;
 mod surfaces;
 pub mod system;
 #[cfg(test)]
 mod testing;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tests_central;
 
 pub use camera::Camera;
 pub use error::LiftError;
@@ -81,22 +84,15 @@ pub fn lift(
         } else {
             reading.clone()
         };
-        let sheet = Sheet::new(drawing, faces, &reading);
-        let solved = match solve::solve(&sheet) {
-            Ok(solved) => solved,
+        match choice(drawing, faces, &reading, rival) {
+            Ok(choice) => {
+                if best.as_ref().is_none_or(|b| choice.is_better_than(b)) {
+                    best = Some(choice);
+                }
+            }
             Err(error) => {
                 refusal.get_or_insert(error);
-                continue;
             }
-        };
-        let choice = Choice {
-            dropped: solved.dropped(),
-            rival,
-            posture: Posture::of(&sheet, |v| solved.height(v)),
-            lift: finish(&sheet, &solved),
-        };
-        if best.as_ref().is_none_or(|b| choice.is_better_than(b)) {
-            best = Some(choice);
         }
     }
     progress.report(Stage::Lift, 1.0)?;
@@ -127,6 +123,62 @@ impl Choice {
                 && self.dropped <= other.dropped
                 && self.posture > other.posture)
     }
+}
+
+/// Lifts one reading: as it is if its faces agree, else with the faces that do not taken apart.
+fn choice(
+    drawing: &Drawing,
+    faces: &[Face],
+    reading: &Directions,
+    rival: bool,
+) -> std::result::Result<Choice, LiftError> {
+    let sheet = Sheet::new(drawing, faces, reading);
+    let whole = solve::solve(&sheet);
+    let made = |sheet: &Sheet<'_>, solved: &Solved, lift: Lift| Choice {
+        dropped: solved.dropped(),
+        rival,
+        posture: Posture::of(sheet, |v| solved.height(v)),
+        lift,
+    };
+    if let Ok(solved) = &whole
+        && solved.dropped() == 0
+    {
+        return Ok(made(&sheet, solved, finish(&sheet, solved)));
+    }
+    if faces.iter().any(|f| f.loops.len() > 1)
+        && let Some(split) = split::split(drawing, faces, reading)
+    {
+        let parts = Sheet::new(drawing, &split.faces, reading);
+        if let Ok(solved) = solve::solve(&parts)
+            && whole
+                .as_ref()
+                .map_or(true, |w| solved.dropped() < w.dropped())
+        {
+            let mut lift = finish(&parts, &solved);
+            lift.surfaces = gathered(&parts, &split, &lift.surfaces, faces.len());
+            lift.conflicts = conflicts::conflicts(&sheet, &lift.depths, &lift.surfaces);
+            lift.method = LiftMethod::L1;
+            return Ok(made(&parts, &solved, lift));
+        }
+    }
+    whole.map(|solved| made(&sheet, &solved, finish(&sheet, &solved)))
+}
+
+/// Surfaces of whole faces: each one that of its part with most vertices.
+fn gathered(
+    parts: &Sheet<'_>,
+    split: &split::Split,
+    surfaces: &[Surface],
+    count: usize,
+) -> Vec<Surface> {
+    let mut all = vec![(0, Surface::Unknown); count];
+    for (part, (&owner, surface)) in split.owners.iter().zip(surfaces).enumerate() {
+        let corners = parts.corners[part].len();
+        if corners > all[owner].0 {
+            all[owner] = (corners, *surface);
+        }
+    }
+    all.into_iter().map(|(_, surface)| surface).collect()
 }
 
 fn finish(sheet: &Sheet<'_>, solved: &Solved) -> Lift {

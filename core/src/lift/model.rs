@@ -1,5 +1,7 @@
 //! What lifting takes and gives.
 
+use std::fmt;
+
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
@@ -75,12 +77,36 @@ pub enum LiftMethod {
 pub struct Conflict {
     /// Face index, from 0.
     pub face: usize,
-    /// Vertices (from 0) that lie off the face's surface.
+    /// Vertices (from 0) that lie off the face's surface, or on an edge that it cannot have.
     pub vertices: Vec<usize>,
     /// Other faces (from 0) at those vertices.
     pub others: Vec<usize>,
-    /// Largest distance, in drawing units.
+    /// Largest distance, in drawing units; 0 if the face holds an edge twice.
     pub residual: f64,
+}
+
+impl fmt::Display for Conflict {
+    /// In the words of the drawing: faces from 1, vertices from 0.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "face {} conflicts with ", self.face + 1)?;
+        if self.others.is_empty() {
+            write!(f, "itself")?;
+        } else {
+            let others: Vec<usize> = self.others.iter().map(|o| o + 1).collect();
+            write!(f, "{}", list("face", "faces", &others))?;
+        }
+        write!(f, " at {}", list("vertex", "vertices", &self.vertices))
+    }
+}
+
+/// "face 3", "faces 3 and 9", "faces 3, 9 and 10".
+fn list(one: &str, several: &str, numbers: &[usize]) -> String {
+    let text: Vec<String> = numbers.iter().map(usize::to_string).collect();
+    match text.split_last() {
+        Some((last, [])) => format!("{one} {last}"),
+        Some((last, rest)) => format!("{several} {} and {last}", rest.join(", ")),
+        None => format!("no {several}"),
+    }
 }
 
 /// A lifted drawing.
@@ -103,4 +129,27 @@ pub struct Lift {
     pub residual: f64,
     /// Faces that the depths contradict; empty when consistent.
     pub conflicts: Vec<Conflict>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn conflicts_are_told_in_the_words_of_the_drawing() {
+        let conflict = |others: &[usize], vertices: &[usize]| Conflict {
+            face: 6,
+            vertices: vertices.to_vec(),
+            others: others.to_vec(),
+            residual: 0.1,
+        };
+        assert_eq!(
+            conflict(&[2, 8], &[12]).to_string(),
+            "face 7 conflicts with faces 3 and 9 at vertex 12"
+        );
+        assert_eq!(
+            conflict(&[], &[1, 4, 5]).to_string(),
+            "face 7 conflicts with itself at vertices 1, 4 and 5"
+        );
+    }
 }

@@ -205,7 +205,9 @@ fn link(sheet: &Sheet<'_>, centers: &[Center], k: usize, face: usize, system: &m
                 2.0 * error / length + sheet.directions.error * apart.length() / (length * length);
             let row = sheet.camera().along(axis, first.at, other.at);
             let tag = Tag::Revolved { face };
-            first.depth.relate(&other.depth, row, error.recip(), tag, system);
+            first
+                .depth
+                .relate(&other.depth, row, error.recip(), tag, system);
         }
     }
 }

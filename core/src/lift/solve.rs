@@ -45,6 +45,20 @@ impl Solved {
         fixed.then(|| [self.x[p], self.x[p + 1], self.x[p + 2]])
     }
 
+    /// Vertices whose depth is not tied to that of most others, sorted.
+    pub(super) fn loose(&self, sheet: &Sheet<'_>) -> Vec<usize> {
+        loose(sheet, &self.unknowns, &self.null_space)
+    }
+
+    /// Whether the depths of two vertices are determined by each other.
+    pub(super) fn are_tied(&self, sheet: &Sheet<'_>, a: usize, b: usize) -> bool {
+        if sheet.camera().is_parallel() {
+            self.null_space.are_tied(a, b)
+        } else {
+            !self.null_space.is_free(a) && !self.null_space.is_free(b)
+        }
+    }
+
     /// Largest residual of the rows kept that are lengths, drawing units; those of planes are
     /// distances from the plane.
     pub(super) fn residual(&self) -> f64 {
@@ -64,7 +78,7 @@ impl Solved {
 /// Solves a reading whose depths must all be tied together.
 pub(super) fn solve(sheet: &Sheet<'_>) -> Result<Solved, LiftError> {
     let solved = solve_open(sheet)?;
-    let vertices = loose(sheet, &solved.unknowns, &solved.null_space);
+    let vertices = solved.loose(sheet);
     if !vertices.is_empty() {
         return Err(LiftError::UnderConstrained { vertices });
     }
@@ -101,6 +115,7 @@ pub(super) fn solve_open(sheet: &Sheet<'_>) -> Result<Solved, LiftError> {
     if agreeing(&system, &x).contains(&false) || gauge::in_front(sheet, &x).is_err() {
         method = LiftMethod::L1;
         restore(&mut system, &base);
+        gauge::release(&mut system);
         x = system.least_absolute()?.x;
         for _ in 0..ROUNDS {
             gauge::rescale(sheet, &null_space, &mut system, &mut x);

@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use glam::{DQuat, DVec2, DVec3, EulerRot};
 
+use super::Camera;
 use crate::drawing::{CoEdge, Curve2, Drawing, Edge, EllipseArc, Projection, SurfaceKind, Truth};
 use crate::identify::{Evidence, Face};
 
@@ -15,6 +16,9 @@ pub(super) fn turned(x: f64, y: f64, z: f64) -> DQuat {
 /// A solid in its own coordinates, drawn after a turn.
 pub(super) struct Scene {
     turn: DQuat,
+    /// Moves the turned solid in front of the camera.
+    shift: DVec3,
+    camera: Camera,
     vertices: Vec<DVec3>,
     edges: Vec<Edge>,
     faces: Vec<Face>,
@@ -24,9 +28,20 @@ impl Scene {
     pub(super) fn new(turn: DQuat) -> Self {
         Self {
             turn,
+            shift: DVec3::ZERO,
+            camera: Camera::Parallel,
             vertices: Vec::new(),
             edges: Vec::new(),
             faces: Vec::new(),
+        }
+    }
+
+    /// Draws in perspective, the solid's origin at `shift` from the camera.
+    pub(super) fn central(turn: DQuat, shift: DVec3, principal: DVec2, focal: f64) -> Self {
+        Self {
+            shift,
+            camera: Camera::Central { principal, focal },
+            ..Self::new(turn)
         }
     }
 
@@ -39,7 +54,7 @@ impl Scene {
     }
 
     fn drawn(&self, p: DVec3) -> DVec2 {
-        (self.turn * p).truncate()
+        self.camera.project(self.turn * p + self.shift)
     }
 
     /// A straight edge; one that is there already is found again.
@@ -58,30 +73,48 @@ impl Scene {
         self.edges.len() - 1
     }
 
-    /// Half a circle around `axis` from `center + across` to `center - across`.
-    fn half_circle(&mut self, center: DVec3, axis: DVec3, across: DVec3) -> usize {
-        let v = [self.vertex(center + across), self.vertex(center - across)];
-        let at = |t: f64| center + across * t.cos() + axis.cross(across) * t.sin();
+    /// Where a cylinder's outlines are, from a point of its axis: where the ray touches it.
+    fn outline(&self, center: DVec3, along: DVec3, radius: f64) -> [DVec3; 2] {
+        if self.camera.is_parallel() {
+            let view = self.turn.inverse() * DVec3::Z;
+            let across = along.cross(view).normalize() * radius;
+            return [across, -across];
+        }
+        // Seen along the axis, the tangents from the camera to the circle.
+        let eye = self.turn.inverse() * -self.shift;
+        let away = (eye - center).reject_from_normalized(along);
+        let (toward, side) = (away.normalize(), along.cross(away.normalize()));
+        let cos = radius / away.length();
+        let sin = (1.0 - cos * cos).sqrt();
+        [1.0, -1.0].map(|s| (toward * cos + side * (s * sin)) * radius)
+    }
+
+    /// An arc around `axis` from `center + from`, counter-clockwise, to `center + to`.
+    fn arc(&mut self, center: DVec3, axis: DVec3, from: DVec3, to: DVec3) -> usize {
+        let v = [self.vertex(center + from), self.vertex(center + to)];
+        let side = axis.cross(from);
+        let sweep = to.dot(side).atan2(to.dot(from)).rem_euclid(2.0 * PI);
+        let at = |t: f64| center + from * t.cos() + side * t.sin();
         let points: Vec<DVec2> = (0..=16)
-            .map(|i| self.drawn(at(PI * f64::from(i) / 16.0)))
+            .map(|i| self.drawn(at(sweep * f64::from(i) / 16.0)))
             .collect();
-        let n = self.turn * axis;
-        let ratio = n.z.abs();
-        let mut arc = EllipseArc {
-            center: self.drawn(center),
-            major: n.truncate().normalize().perp() * across.length(),
-            ratio,
-            start: 0.0,
-            sweep: PI * n.z.signum(),
-            residual: 0.0,
-            uncertainty: 0.0,
+        let curve = if self.camera.is_parallel() {
+            let n = self.turn * axis;
+            let mut arc = EllipseArc {
+                center: self.drawn(center),
+                major: n.truncate().normalize().perp() * from.length(),
+                ratio: n.z.abs(),
+                start: 0.0,
+                sweep: sweep * n.z.signum(),
+                residual: 0.0,
+                uncertainty: 0.0,
+            };
+            arc.start = arc.parameter(points[0]);
+            Curve2::Ellipse(arc)
+        } else {
+            Curve2::recognise(&points)
         };
-        arc.start = arc.parameter(points[0]);
-        self.edges.push(Edge {
-            v,
-            points,
-            curve: Curve2::Ellipse(arc),
-        });
+        self.edges.push(Edge { v, points, curve });
         self.edges.len() - 1
     }
 
@@ -114,16 +147,15 @@ impl Scene {
     /// A round wall from `center` along `axis` (its length is the wall's): two outlines, four half
     /// circles, two faces. Gives the loops at the start and at the end.
     pub(super) fn wall(&mut self, center: DVec3, axis: DVec3, radius: f64) -> [Vec<usize>; 2] {
-        let view = self.turn.inverse() * DVec3::Z;
         let along = axis.normalize();
-        let across = along.cross(view).normalize() * radius;
+        let [one, other] = self.outline(center, along, radius);
         let loops = [center, center + axis].map(|c| {
             vec![
-                self.half_circle(c, along, across),
-                self.half_circle(c, along, -across),
+                self.arc(c, along, one, other),
+                self.arc(c, along, other, one),
             ]
         });
-        let outlines = [across, -across].map(|a| self.line(center + a, center + axis + a));
+        let outlines = [one, other].map(|a| self.line(center + a, center + axis + a));
         for (start, end) in loops[0].iter().zip(&loops[1]) {
             let boundary = vec![*start, outlines[1], *end, outlines[0]];
             self.face(SurfaceKind::Cylinder, &[boundary]);
@@ -149,12 +181,16 @@ impl Scene {
 
     /// The drawing with its truth, and the faces.
     pub(super) fn finish(self) -> (Drawing, Vec<Face>) {
-        let vertices3d: Vec<DVec3> = self.vertices.iter().map(|&p| self.turn * p).collect();
+        let place = |p: &DVec3| self.turn * *p + self.shift;
+        let vertices3d: Vec<DVec3> = self.vertices.iter().map(place).collect();
         let drawing = Drawing {
             id: String::new(),
             source: String::new(),
-            projection: Projection::Orthographic,
-            vertices: vertices3d.iter().map(|p| p.truncate()).collect(),
+            projection: match self.camera {
+                Camera::Parallel => Projection::Orthographic,
+                Camera::Central { focal, .. } => Projection::Perspective { focal: Some(focal) },
+            },
+            vertices: vertices3d.iter().map(|p| self.camera.project(*p)).collect(),
             edges: self.edges,
             truth: Some(Truth {
                 vertices3d,
@@ -189,7 +225,16 @@ pub(super) fn block_with_hole(
     at: DVec2,
     radius: f64,
 ) -> (Drawing, Vec<Face>) {
-    let mut scene = Scene::new(turn);
+    drilled(Scene::new(turn), size, at, radius)
+}
+
+/// The same drawn in a scene that is empty so far.
+pub(super) fn drilled(
+    mut scene: Scene,
+    size: DVec3,
+    at: DVec2,
+    radius: f64,
+) -> (Drawing, Vec<Face>) {
     let corners = polygon(&[[0.0, 0.0], [size.x, 0.0], [size.x, size.y], [0.0, size.y]]);
     let [bottom, top] = scene.prism(&corners, DVec3::Z * size.z);
     let [low, high] = scene.wall(at.extend(0.0), DVec3::Z * size.z, radius);

@@ -207,7 +207,7 @@ fn faces_are_not_needed_where_edges_are_enough() {
 }
 
 #[test]
-fn perspective_and_cancelling_stop() {
+fn flipped_perspective_and_cancelling_stop() {
     let (mut drawing, faces) = extrusion(view(), &SQUARE, 1.0);
     let stop = |_: Stage, share: f64| share < 0.1;
     let stopped = lift(
@@ -217,9 +217,10 @@ fn perspective_and_cancelling_stop() {
         Progress::new(&stop),
     );
     assert_eq!(stopped, Err(Error::Cancelled));
-    drawing.projection = Projection::Perspective { focal: None };
-    let refused = lift(&drawing, &faces, &LiftOptions::default(), Progress::none());
-    assert_eq!(refused, Err(LiftError::Projection("perspective").into()));
+    drawing.projection = Projection::Perspective { focal: Some(3.0) };
+    let flipped = LiftOptions { flip: true };
+    let refused = lift(&drawing, &faces, &flipped, Progress::none());
+    assert_eq!(refused, Err(LiftError::NoReversal.into()));
 }
 
 #[test]

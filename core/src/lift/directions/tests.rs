@@ -156,10 +156,8 @@ fn lines_in_no_common_directions_are_refused() {
     assert!(matches!(found, Err(LiftError::NoDirections(_))));
     let mut perspective = drawing(DQuat::IDENTITY, &fan, &[]);
     perspective.projection = Projection::Perspective { focal: None };
-    assert_eq!(
-        Directions::estimate(&perspective),
-        Err(LiftError::Projection("perspective"))
-    );
+    let found = Directions::estimate(&perspective);
+    assert_eq!(found, Err(LiftError::Focal { directions: 0 }));
 }
 
 proptest! {

@@ -1,9 +1,9 @@
 //! The L1 norm through Clarabel: minimise `sum(t)` with `-t <= W (A x - b) <= t` and what
-//! unknowns must not fall below.
+//! is fixed of the unknowns.
 
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{
-    DefaultSettingsBuilder, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus,
+    DefaultSettingsBuilder, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus, ZeroConeT,
 };
 
 use super::{LiftError, System};
@@ -44,7 +44,15 @@ pub(super) fn solve<T>(system: &System<T>) -> Result<Vec<f64>, LiftError> {
         entry(2 * m + k, i, -1.0);
         rhs.push(-least);
     }
-    let constraints = CscMatrix::new_from_triplets(2 * m + floors, n + m, at_row, at_column, values);
+    let mut count = 2 * m + floors;
+    let mut cones = vec![NonnegativeConeT(count)];
+    if let Some((unknowns, sum)) = &system.total {
+        unknowns.iter().for_each(|&i| entry(count, i, 1.0));
+        rhs.push(*sum);
+        cones.push(ZeroConeT(1));
+        count += 1;
+    }
+    let constraints = CscMatrix::new_from_triplets(count, n + m, at_row, at_column, values);
     let quadratic = CscMatrix::new_from_triplets(
         n + m,
         n + m,
@@ -58,7 +66,6 @@ pub(super) fn solve<T>(system: &System<T>) -> Result<Vec<f64>, LiftError> {
         .verbose(false)
         .build()
         .map_err(|e| LiftError::Solver(e.to_string()))?;
-    let cones = [NonnegativeConeT(2 * m + floors)];
     let mut solver = DefaultSolver::new(&quadratic, &cost, &constraints, &rhs, &cones, settings)
         .map_err(|e| LiftError::Solver(e.to_string()))?;
     solver.solve();

@@ -55,6 +55,8 @@ pub struct System<T> {
     rows: Vec<Row<T>>,
     /// Unknowns with their least values; the L1 norm alone heeds them.
     floors: Vec<(usize, f64)>,
+    /// Unknowns with their sum; the L1 norm alone heeds it.
+    total: Option<(Vec<usize>, f64)>,
 }
 
 /// What a solve gives.
@@ -86,6 +88,7 @@ impl<T> System<T> {
             unknowns,
             rows: Vec::new(),
             floors: Vec::new(),
+            total: None,
         }
     }
 
@@ -103,6 +106,12 @@ impl<T> System<T> {
     /// Keeps an unknown from falling below a value in the L1 norm; least squares does not heed it.
     pub fn bound_below(&mut self, unknown: usize, least: f64) {
         self.floors.push((unknown, least));
+    }
+
+    /// Fixes the sum of some unknowns in the L1 norm, where homogeneous rows would else be least at
+    /// zero; least squares does not heed it.
+    pub fn fix_sum(&mut self, unknowns: Vec<usize>, sum: f64) {
+        self.total = Some((unknowns, sum));
     }
 
     /// The rows.

@@ -59,7 +59,12 @@ pub(super) fn circles(drawing: &Drawing, camera: &Camera, precision: f64) -> Vec
         }
         _ => None,
     };
-    drawing.edges.iter().enumerate().filter_map(circle).collect()
+    drawing
+        .edges
+        .iter()
+        .enumerate()
+        .filter_map(circle)
+        .collect()
 }
 
 /// The circular sections of the cone over an ellipse: with eigenvalues l1 > l2 > 0 > l3 of the
@@ -102,7 +107,10 @@ pub(super) fn groups(circles: &[Circle]) -> Vec<Group> {
     for &start in &order {
         for normal in circles[start].normals {
             let error = circles[start].error;
-            if all.iter().any(|g| g.normal.cross(normal).length() < AGREE * (g.error + error)) {
+            if all
+                .iter()
+                .any(|g| g.normal.cross(normal).length() < AGREE * (g.error + error))
+            {
                 continue;
             }
             let (mut sum, mut weight, mut members) = (DVec3::ZERO, 0.0, Vec::new());

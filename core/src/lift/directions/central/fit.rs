@@ -152,7 +152,9 @@ fn improve(
         step[k] = solution[(k, 0)] / scale[k];
     }
     // The trace bounds the largest eigenvalue of the rotation's covariance.
-    let variance: f64 = (0..3).map(|k| inverse[(k, k)] / (scale[k] * scale[k])).sum();
+    let variance: f64 = (0..3)
+        .map(|k| inverse[(k, k)] / (scale[k] * scale[k]))
+        .sum();
     let sound = (0..count).all(|k| inverse[(k, k)] < 1e12);
     sound.then(|| (step, variance.sqrt()))
 }

@@ -31,9 +31,8 @@ impl Followers {
             let along = |k: &usize| lines.follows(camera, line, frame.col(*k), error);
             only((0..3).filter(along))
         };
-        let circle = |c: &Circle| {
-            only((0..3).filter(|&k| c.agreeing(frame.col(k), error).is_some()))
-        };
+        let circle =
+            |c: &Circle| only((0..3).filter(|&k| c.agreeing(frame.col(k), error).is_some()));
         Self {
             lines: lines.all.iter().map(line).collect(),
             circles: circles.iter().map(circle).collect(),

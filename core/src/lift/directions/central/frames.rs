@@ -74,5 +74,9 @@ pub(super) fn around(lines: &Lines, camera: &Camera, axis: DVec3, error: f64) ->
         let frame = DMat3::from_cols(axis, second, axis.cross(second));
         (frame, t.error + error)
     };
-    chosen.iter().map(frame).filter(|f| f.0.is_finite()).collect()
+    chosen
+        .iter()
+        .map(frame)
+        .filter(|f| f.0.is_finite())
+        .collect()
 }

@@ -40,6 +40,9 @@ const CHANCE: f64 = 0.1;
 /// Standard error of the axes, radians, beyond which depth cannot be told.
 const MAX_ERROR: f64 = 0.03;
 
+/// A reading with a smaller share of the best one's votes has few conflicts because it says little.
+const RIVAL: f64 = 0.6;
+
 /// Readings that are worth a second look when the first one leads to conflicts.
 const READINGS: usize = 4;
 
@@ -76,7 +79,10 @@ pub(super) fn candidates(
         let worth = (CHANCE / relative).ln();
         let lines = Lines::new(drawing, relative * size);
         // Coarser precision is worth less a vote and can win by explaining more only.
-        if best.as_ref().is_some_and(|(bits, _)| *bits >= lines.votes() * worth) {
+        if best
+            .as_ref()
+            .is_some_and(|(bits, _)| *bits >= lines.votes() * worth)
+        {
             break;
         }
         let readings = match focal {
@@ -97,10 +103,13 @@ pub(super) fn candidates(
             best = Some((bits, readings));
         }
     }
+    let most = best
+        .as_ref()
+        .map_or(0.0, |(_, r)| r.first().map_or(0.0, |r| r.votes));
     let good: Vec<Directions> = best
         .into_iter()
         .flat_map(|(_, readings)| readings)
-        .filter(|r| r.directions.error < MAX_ERROR)
+        .filter(|r| r.directions.error < MAX_ERROR && r.votes >= RIVAL * most)
         .take(READINGS)
         .map(|mut r| {
             let lines = Lines::new(drawing, r.directions.precision);

@@ -78,8 +78,16 @@ pub(super) fn readings(
         }
     }
     if open == Open::Nothing {
-        all.extend(groups.iter().map(|g| group_reading(lines, &round, g, camera)));
-        all.extend(found.iter().map(|p| pencil_reading(lines, &round, p, camera)));
+        all.extend(
+            groups
+                .iter()
+                .map(|g| group_reading(lines, &round, g, camera)),
+        );
+        all.extend(
+            found
+                .iter()
+                .map(|p| pencil_reading(lines, &round, p, camera)),
+        );
     }
     all.retain(|r| r.votes > 0.0);
     all.sort_by(|a, b| b.score.total_cmp(&a.score));
@@ -193,7 +201,11 @@ fn axis_reading(
         .collect();
     let around: Vec<bool> = round
         .iter()
-        .map(|c| c.agreeing(direction, error).or(c.agreeing(-direction, error)).is_some())
+        .map(|c| {
+            c.agreeing(direction, error)
+                .or(c.agreeing(-direction, error))
+                .is_some()
+        })
         .collect();
     let edges = lines.all.iter().zip(&along).filter(|(_, a)| **a);
     let circles = round.iter().zip(&around).filter(|(_, a)| **a);

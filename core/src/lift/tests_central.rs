@@ -1,0 +1,110 @@
+//! Lifting perspective drawings.
+
+use glam::{DVec2, DVec3};
+use proptest::prelude::*;
+
+use super::testing::{Scene, drilled, polygon, turned};
+use super::*;
+use crate::drawing::{Curve2, SurfaceKind};
+
+fn lifted(drawing: &Drawing, faces: &[Face]) -> Lift {
+    lift(drawing, faces, &LiftOptions::default(), Progress::none()).unwrap()
+}
+
+fn error(drawing: &Drawing, found: &Lift) -> f64 {
+    depth_error(found, drawing.truth.as_ref().unwrap())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(48))]
+
+    /// Any generic view of a block with a hole is lifted to within the rounding of its coordinates.
+    #[test]
+    fn any_view_of_a_block_with_a_hole_is_lifted(
+        x in 0.3..1.1f64, y in 0.3..1.2f64, z in -0.5..0.5f64, focal in 2.0..4.0f64,
+        width in 1.0..2.0f64, depth in 1.0..2.0f64, height in 0.3..1.5f64, radius in 0.15..0.4f64,
+        known: bool,
+    ) {
+        let shift = DVec3::new(-0.5, -0.3, -5.0);
+        let scene = Scene::central(turned(x, y, z), shift, DVec2::ZERO, focal);
+        let size = DVec3::new(width, depth, height);
+        let (mut drawing, faces) = drilled(scene, size, DVec2::new(0.5, 0.5), radius);
+        if !known {
+            drawing.projection = Projection::Perspective { focal: None };
+        }
+        let rounded = |p: &mut DVec2| *p = (*p * 1e6).round() / 1e6;
+        drawing.vertices.iter_mut().for_each(rounded);
+        for e in &mut drawing.edges {
+            e.points.iter_mut().for_each(rounded);
+            e.curve = Curve2::recognise(&e.points);
+        }
+        let found = lifted(&drawing, &faces);
+        prop_assert!(error(&drawing, &found) < 2e-3, "{}", error(&drawing, &found));
+        prop_assert!(found.conflicts.is_empty());
+        let scale = found.depths[0] / drawing.truth.as_ref().unwrap().vertices3d[0].z;
+        for (face, surface) in faces.iter().zip(&found.surfaces) {
+            match *surface {
+                Surface::Cylinder { radius: r, .. } => {
+                    prop_assert!((r / scale - radius).abs() < 2e-3);
+                }
+                Surface::Plane { .. } => prop_assert_eq!(face.kind, SurfaceKind::Plane),
+                Surface::Unknown => prop_assert!(false, "no surface"),
+            }
+        }
+    }
+}
+
+#[test]
+fn the_scale_is_such_that_lengths_are_drawn_as_they_are() {
+    let scene = Scene::central(turned(0.6, 0.7, 0.1), DVec3::Z * -9.0, DVec2::ZERO, 3.0);
+    let (drawing, faces) = drilled(scene, DVec3::ONE, DVec2::splat(0.5), 0.2);
+    let found = lifted(&drawing, &faces);
+    let mean = found.depths.iter().map(|z| 3.0 / -z).sum::<f64>() / found.depths.len() as f64;
+    assert!((mean - 1.0).abs() < 1e-9);
+    assert_eq!(found.method, LiftMethod::Exact);
+}
+
+#[test]
+fn faces_that_are_wrong_are_named() {
+    let scene = Scene::central(turned(0.6, 0.7, 0.1), DVec3::Z * -5.0, DVec2::ZERO, 3.0);
+    let (drawing, mut faces) = drilled(scene, DVec3::new(2.0, 1.5, 0.8), DVec2::splat(0.7), 0.3);
+    let wall = faces.remove(0);
+    let top = faces.len() - 1;
+    faces[top].loops[0].extend(wall.loops[0].iter().copied());
+    let found = lifted(&drawing, &faces);
+    assert!(
+        error(&drawing, &found) < 1e-6,
+        "{}",
+        error(&drawing, &found)
+    );
+    assert!(found.conflicts.iter().any(|c| c.face == top));
+}
+
+#[test]
+fn the_end_of_a_frustum_is_centred() {
+    let mut scene = Scene::central(turned(0.6, 0.7, 0.1), DVec3::Z * -6.0, DVec2::ZERO, 3.0);
+    let base = polygon(&[[-1.0, -0.8], [1.0, -0.8], [1.0, 0.8], [-1.0, 0.8]]);
+    let top: Vec<DVec3> = base.iter().map(|p| *p * 0.5 + DVec3::Z * 1.2).collect();
+    let ring = |scene: &mut Scene, corners: &[DVec3]| -> Vec<usize> {
+        (0..4)
+            .map(|i| scene.line(corners[i], corners[(i + 1) % 4]))
+            .collect()
+    };
+    let (low, high) = (ring(&mut scene, &base), ring(&mut scene, &top));
+    for i in 0..4 {
+        let sides = [i, (i + 1) % 4].map(|k| scene.line(base[k], top[k]));
+        scene.face(
+            SurfaceKind::Plane,
+            &[vec![low[i], sides[1], high[i], sides[0]]],
+        );
+    }
+    scene.face(SurfaceKind::Plane, &[low]);
+    scene.face(SurfaceKind::Plane, &[high]);
+    let (drawing, faces) = scene.finish();
+    let found = lifted(&drawing, &faces);
+    assert!(
+        error(&drawing, &found) < 1e-6,
+        "{}",
+        error(&drawing, &found)
+    );
+}
