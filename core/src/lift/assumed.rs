@@ -17,11 +17,12 @@ pub(super) type Level = fn(&Sheet<'_>, &Unknowns, &mut System<Tag>);
 /// The sets, surest first.
 pub(super) const LEVELS: [Level; 7] = [
     parallel,
+    // The sides of a frustum would pass for ends of prisms.
+    frustums,
     prisms,
     revolved::on_one_axis,
     revolved::on_cylinder,
     generators,
-    frustums,
     pencils,
 ];
 
