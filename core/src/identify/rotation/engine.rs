@@ -3,7 +3,7 @@
 use super::cuts::Cuts;
 use super::{Field, HandScorer, TripleScorer, Triples};
 use crate::drawing::{CoEdge, Drawing, Graph};
-use crate::identify::kinds::kind_of;
+use crate::identify::kinds::kinds_of;
 use crate::identify::{
     Candidate, Engine, EngineKind, Evidence, Face, Identification, IdentifyError,
 };
@@ -58,13 +58,18 @@ impl Engine for RotationEngine {
             };
             walk.iter().map(at).fold(f64::INFINITY, f64::min)
         };
-        let faces: Vec<Face> = system
-            .loops()
+        let walks = system.loops();
+        let kinds = kinds_of(
+            drawing,
+            &walks.iter().map(Vec::as_slice).collect::<Vec<_>>(),
+        );
+        let faces: Vec<Face> = walks
             .into_iter()
-            .map(|walk| {
+            .zip(kinds)
+            .map(|(walk, kind)| {
                 let margin = margin(&walk);
                 Face {
-                    kind: kind_of(drawing, &walk),
+                    kind,
                     loops: vec![walk],
                     confidence: confidence(margin),
                     evidence: Evidence {

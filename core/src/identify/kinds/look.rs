@@ -1,0 +1,213 @@
+//! What a loop looks like in the drawing.
+//!
+//! The drawing of a planar face is an affine image of the face, so what no flat outline does, no
+//! planar face's drawing does either: its edges do not turn back on themselves where they meet
+//! (curved faces do so at their silhouettes), its circles are drawn as ellipses of one shape and
+//! direction, and none of its lines is drawn along the axis of one of its circles.
+
+use glam::DVec2;
+
+use crate::drawing::{CoEdge, Curve2, Drawing, EllipseArc, SurfaceKind};
+
+/// Sine of the angle up to which two drawn lines are parallel.
+const PARALLEL: f64 = 0.01;
+
+/// Sine of the angle up to which two edges leave a vertex the same way, for tangents that are known
+/// and for those of polylines.
+const CUSP: f64 = 0.015;
+const VAGUE_CUSP: f64 = 0.06;
+
+/// Uncertainty from which an arc's ellipse tells nothing.
+const VAGUE: f64 = 0.02;
+
+/// Ratio of an ellipse's axes from which it is a circle as drawn.
+const ROUND: f64 = 0.9995;
+
+/// A loop as drawn.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Look {
+    /// Straight edges.
+    pub(super) lines: usize,
+    /// Curved edges.
+    pub(super) curves: usize,
+    /// Curved edges that are no ellipses.
+    pub(super) bends: usize,
+    /// Whether there are lines of two directions.
+    pub(super) spread: bool,
+    /// Whether all edges lie on one ellipse and go around it once.
+    pub(super) ring: bool,
+    /// Corners where the edges leave the same way.
+    cusps: usize,
+    /// Whether the ellipses are of more than one shape.
+    unlike: bool,
+    /// Whether a line follows the axis of a circle.
+    along_axis: bool,
+    /// Whether lines of two directions converge between ellipses of one shape but not one centre.
+    tapered: bool,
+    /// Whether an edge is drawn as a circle, as a sphere's silhouette is.
+    round: bool,
+    /// Smallest distance between parallel lines with curves between them, or none.
+    apart: bool,
+}
+
+impl Look {
+    pub(super) fn new(drawing: &Drawing, walk: &[CoEdge]) -> Self {
+        let mut look = Self::default();
+        let mut directions: Vec<DVec2> = Vec::new();
+        let mut ellipses: Vec<EllipseArc> = Vec::new();
+        let mut sweep = 0.0;
+        for c in walk {
+            let edge = &drawing.edges[c.edge()];
+            match edge.curve {
+                Curve2::Line => {
+                    look.lines += 1;
+                    let d = edge.points[edge.points.len() - 1] - edge.points[0];
+                    directions.push(d.normalize_or_zero());
+                }
+                Curve2::Ellipse(arc) => {
+                    look.curves += 1;
+                    sweep += arc.sweep.abs();
+                    ellipses.push(arc);
+                }
+                Curve2::Polyline => {
+                    look.curves += 1;
+                    look.bends += 1;
+                }
+            }
+        }
+        let parallel = |a: DVec2, b: DVec2| a.perp_dot(b).abs() < PARALLEL;
+        look.spread = directions.iter().any(|d| !parallel(*d, directions[0]));
+        look.cusps = corners(walk).filter(|&(a, b)| cusp(drawing, a, b)).count();
+        let sure: Vec<&EllipseArc> = ellipses.iter().filter(|a| a.uncertainty < VAGUE).collect();
+        look.unlike = sure.iter().any(|a| !alike(a, sure[0]));
+        look.round = sure.iter().any(|a| a.ratio > ROUND);
+        look.along_axis = sure.iter().any(|arc| {
+            arc.ratio < ROUND
+                && directions
+                    .iter()
+                    .any(|d| d.dot(arc.major).abs() < PARALLEL * arc.major.length())
+        });
+        look.ring = look.lines == 0
+            && look.bends == 0
+            && (sweep - std::f64::consts::TAU).abs() < 0.05
+            && ellipses.iter().all(|a| same(a, &ellipses[0]));
+        look.tapered = look.spread
+            && look.lines == 2
+            && look.curves == 2
+            && sure.len() == 2
+            && alike(sure[0], sure[1])
+            && !same_center(sure[0], sure[1])
+            && sure[0].center.distance(sure[1].center) > 0.0
+            && {
+                // Along the axis of both.
+                let d = (sure[1].center - sure[0].center).normalize_or_zero();
+                sure[0].ratio < ROUND
+                    && d.dot(sure[0].major).abs()
+                        < (PARALLEL + 2.0 * sure[0].uncertainty) * sure[0].major.length()
+            };
+        look.apart = look.lines >= 2 && !look.spread && look.curves >= 2;
+        look
+    }
+
+    /// Whether the loop bounds no planar face, as far as it tells alone.
+    pub(super) fn is_curved(&self) -> bool {
+        self.cusps > 0 || self.unlike || self.along_axis || self.tapered
+    }
+
+    /// How much the loop looks like a planar face's, to choose between neighbours.
+    pub(super) fn flatness(&self) -> f64 {
+        let lines = match (self.spread, self.lines) {
+            (true, 3..) => 3.0,
+            (true, _) => 1.5,
+            (false, 0) => 0.0,
+            (false, _) => 0.5,
+        };
+        let ring = if self.ring { 1.0 } else { 0.0 };
+        lines + ring - 0.5 * f64::from(self.bends.min(4) as u32)
+    }
+
+    /// The kind of surface by the loop alone.
+    pub(super) fn kind(&self) -> SurfaceKind {
+        if self.is_curved() {
+            self.curved_kind()
+        } else {
+            SurfaceKind::Plane
+        }
+    }
+
+    /// The kind of surface if it is no plane: lines that are parallel rule a cylinder, others a
+    /// cone; without lines it is a sphere if drawn round, else a torus.
+    pub(super) fn curved_kind(&self) -> SurfaceKind {
+        match (self.lines, self.spread) {
+            (1.., false) => SurfaceKind::Cylinder,
+            (2, true) => SurfaceKind::Cone,
+            (0, _) if self.round => SurfaceKind::Sphere,
+            (0, _) => SurfaceKind::Torus,
+            _ => SurfaceKind::Other,
+        }
+    }
+}
+
+fn corners(walk: &[CoEdge]) -> impl Iterator<Item = (CoEdge, CoEdge)> + '_ {
+    let next = walk.iter().cycle().skip(1);
+    walk.iter().copied().zip(next.copied())
+}
+
+/// Whether a walk turns back where it goes from one edge to another.
+fn cusp(drawing: &Drawing, from: CoEdge, to: CoEdge) -> bool {
+    if from == to || from == to.mate() {
+        return false;
+    }
+    let (a, b) = (&drawing.edges[from.edge()], &drawing.edges[to.edge()]);
+    if a.is_straight() && b.is_straight() {
+        return false;
+    }
+    let (back, ahead) = (tangent(drawing, from.mate()), tangent(drawing, to));
+    let vague = [a, b].iter().any(|e| matches!(e.curve, Curve2::Polyline));
+    let limit = if vague { VAGUE_CUSP } else { CUSP };
+    back.dot(ahead) > 0.0 && back.perp_dot(ahead).abs() < limit
+}
+
+/// Unit tangent with which a co-edge leaves its origin.
+fn tangent(drawing: &Drawing, c: CoEdge) -> DVec2 {
+    let edge = &drawing.edges[c.edge()];
+    let n = edge.points.len();
+    let at = |k: usize| edge.points[if c.is_reversed() { n - 1 - k } else { k }];
+    match edge.curve {
+        Curve2::Line => (at(n - 1) - at(0)).normalize_or_zero(),
+        Curve2::Ellipse(arc) => {
+            let t = arc.start + if c.is_reversed() { arc.sweep } else { 0.0 };
+            let sense = arc.sweep.signum() * if c.is_reversed() { -1.0 } else { 1.0 };
+            arc.derivative(t).normalize_or_zero() * sense
+        }
+        Curve2::Polyline => {
+            // Of the parabola through three points, its parameter the polyline's length.
+            let (a, b, c) = (at(0), at(1), at(2.min(n - 1)));
+            let (h, k) = (a.distance(b), b.distance(c));
+            if h <= 0.0 || k <= 0.0 {
+                return (c - a).normalize_or_zero();
+            }
+            let (first, second) = ((b - a) / h, (c - b) / k);
+            (first - (second - first) * (h / (h + k))).normalize_or_zero()
+        }
+    }
+}
+
+/// Whether two ellipses may be circles in parallel planes.
+fn alike(a: &EllipseArc, b: &EllipseArc) -> bool {
+    let width = 0.01 + 3.0 * (a.uncertainty + b.uncertainty);
+    let turn = a.major.perp_dot(b.major).abs() / (a.major.length() * b.major.length());
+    let flatness = 1.0 - a.ratio.max(b.ratio);
+    (a.ratio - b.ratio).abs() < width && turn * flatness < width
+}
+
+fn same_center(a: &EllipseArc, b: &EllipseArc) -> bool {
+    let larger = a.major.length().max(b.major.length());
+    a.center.distance(b.center) < (0.01 + 3.0 * (a.uncertainty + b.uncertainty)) * larger
+}
+
+/// Whether two arcs are of one ellipse.
+fn same(a: &EllipseArc, b: &EllipseArc) -> bool {
+    let width = 0.01 + 3.0 * (a.uncertainty + b.uncertainty);
+    alike(a, b) && same_center(a, b) && (a.major.length() / b.major.length()).ln().abs() < width
+}
