@@ -38,6 +38,8 @@ pub(super) struct Look {
     pub(super) ring: bool,
     /// Corners where the edges leave the same way.
     cusps: usize,
+    /// Edges (from 0) that are silhouettes, as cusps at their ends tell.
+    pub(super) silhouettes: Vec<usize>,
     /// Whether the ellipses are of more than one shape.
     unlike: bool,
     /// Whether a line follows the axis of a circle.
@@ -77,7 +79,18 @@ impl Look {
         }
         let parallel = |a: DVec2, b: DVec2| a.perp_dot(b).abs() < PARALLEL;
         look.spread = directions.iter().any(|d| !parallel(*d, directions[0]));
-        look.cusps = corners(walk).filter(|&(a, b)| cusp(drawing, a, b)).count();
+        let mut ends: Vec<usize> = Vec::new();
+        for (a, b) in corners(walk).filter(|&(a, b)| cusp(drawing, a, b)) {
+            look.cusps += 1;
+            ends.extend(silhouette(drawing, a, b));
+        }
+        // A curve may touch another one at one of its ends in space, as on a chamfered nut.
+        ends.sort_unstable();
+        let runs = ends.chunk_by(|a, b| a == b);
+        look.silhouettes = runs
+            .filter(|r| r.len() > 1 || drawing.edges[r[0]].is_straight())
+            .map(|r| r[0])
+            .collect();
         let sure: Vec<&EllipseArc> = ellipses.iter().filter(|a| a.uncertainty < VAGUE).collect();
         look.unlike = sure.iter().any(|a| !alike(a, sure[0]));
         look.round = sure.iter().any(|a| a.ratio > ROUND);
@@ -166,6 +179,23 @@ fn cusp(drawing: &Drawing, from: CoEdge, to: CoEdge) -> bool {
     let vague = [a, b].iter().any(|e| matches!(e.curve, Curve2::Polyline));
     let limit = if vague { VAGUE_CUSP } else { CUSP };
     back.dot(ahead) > 0.0 && back.perp_dot(ahead).abs() < limit
+}
+
+/// Of two edges that leave a vertex the same way the one that is a silhouette: the other one bounds
+/// the surface, and is tangent to the silhouette where this ends. A silhouette is a line on
+/// cylinders and cones, round on a sphere, and no ellipse on a torus.
+fn silhouette(drawing: &Drawing, from: CoEdge, to: CoEdge) -> Option<usize> {
+    let rank = |c: CoEdge| match drawing.edges[c.edge()].curve {
+        Curve2::Line => 3,
+        Curve2::Polyline => 2,
+        Curve2::Ellipse(arc) if arc.ratio > ROUND => 1,
+        Curve2::Ellipse(_) => 0,
+    };
+    match rank(from).cmp(&rank(to)) {
+        std::cmp::Ordering::Greater => Some(from.edge()),
+        std::cmp::Ordering::Less => Some(to.edge()),
+        std::cmp::Ordering::Equal => None,
+    }
 }
 
 /// Unit tangent with which a co-edge leaves its origin.

@@ -1,7 +1,8 @@
 //! Which loops of a drawing bound planes.
 //!
 //! Two planes meet in a straight line, so of the two loops at a curved edge at most one bounds a
-//! plane. Loops that look flat for sure settle what their neighbours are.
+//! plane; at a silhouette neither does, since both loops bound one curved surface. Loops that look
+//! flat for sure settle what their neighbours are.
 
 use std::collections::BTreeMap;
 
@@ -32,12 +33,18 @@ pub(crate) fn kinds_of(drawing: &Drawing, loops: &[&[CoEdge]]) -> Vec<SurfaceKin
         .iter()
         .map(|l| l.is_curved().then_some(false))
         .collect();
+    for &e in looks.iter().flat_map(|l| &l.silhouettes) {
+        for &i in sides.get(&e).into_iter().flatten() {
+            flat[i] = Some(false);
+        }
+    }
     for i in order {
         if flat[i].is_some() {
             continue;
         }
         flat[i] = Some(true);
-        for c in loops[i] {
+        let curved = |c: &&CoEdge| !drawing.edges[c.edge()].is_straight();
+        for c in loops[i].iter().filter(curved) {
             for &j in sides.get(&c.edge()).into_iter().flatten() {
                 // Both sides of a circle without corners look the same.
                 let twins = looks[i].ring && looks[j].ring;

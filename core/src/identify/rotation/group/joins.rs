@@ -265,7 +265,21 @@ impl Joiner<'_> {
         (a - b).abs() < 1e-3 * self.shapes.size
     }
 
+    /// Distance between the centres of two circles in their plane.
+    fn eccentricity(&self, a: usize, b: usize) -> Option<f64> {
+        let (p, q) = (self.shapes.loops[a].line?, self.shapes.loops[b].line?);
+        let n = self.shapes.axes[p.axis];
+        let d = q.at - p.at;
+        let along = n.truncate().normalize_or(DVec2::X);
+        (p.axis == q.axis).then(|| d.perp_dot(along).hypot(d.dot(along) / n.z.abs().max(1e-3)))
+    }
+
     fn centred(&self, link: &Link) -> f64 {
+        if let Some(d) = self.eccentricity(link.outer, link.inner)
+            && self.same(d, 0.0)
+        {
+            return 2.0;
+        }
         let (Some((a, b)), Some((c, d))) = (self.extent(link.outer), self.extent(link.inner))
         else {
             return 0.0;
@@ -276,6 +290,14 @@ impl Joiner<'_> {
     }
 
     fn aligned(&self, link: &Link, state: &State) -> f64 {
+        // On one circle around the outer one's centre.
+        if let Some(d) = self.eccentricity(link.outer, link.inner)
+            && state.inner[link.outer].iter().any(|&i| {
+                i != link.inner && self.eccentricity(link.outer, i).is_some_and(|e| self.same(d, e))
+            })
+        {
+            return 2.0;
+        }
         let Some((a, b)) = self.extent(link.inner) else {
             return 0.0;
         };

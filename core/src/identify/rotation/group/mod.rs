@@ -48,5 +48,12 @@ pub(super) fn group(drawing: &Drawing, graph: &Graph, loops: &[Face]) -> Vec<Gro
     };
     let shapes = Shapes::new(drawing, graph, &pieces, loops);
     let links = links::links(&shapes);
+    if std::env::var("FF_DUMP").is_ok() {
+        eprintln!("{{\"drawing\":{:?},\"axes\":{}}}", drawing.id, shapes.axes.len());
+        for (i, l) in shapes.loops.iter().enumerate() {
+            let e: Vec<i64> = loops[i].loops[0].iter().map(|c| c.signed()).collect();
+            eprintln!("{{\"loop\":{i},\"edges\":{e:?},\"part\":{},\"area\":{:.4},\"plane\":{},\"kind\":\"{:?}\",\"line\":\"{:?}\",\"main\":{}}}", l.part, l.area, l.plane.is_some(), loops[i].kind, l.line.map(|l| (l.axis, l.at.x, l.at.y, l.depth)), l.part == shapes.main_part().unwrap_or(0));
+        }
+    }
     search::Search::new(&shapes, &links, &HandJoinScorer).run()
 }

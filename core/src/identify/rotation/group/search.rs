@@ -120,6 +120,17 @@ impl<'a> Search<'a> {
         let mut seen = BTreeSet::new();
         let mut found = Vec::new();
         self.keep(&runs[0], &mut seen, &mut found);
+        if std::env::var("FF_DUMP").is_ok() {
+            for step in &runs[0].steps {
+                let js: Vec<String> = step.joins.iter().map(|j| {
+                    let ls: Vec<String> = j.links.iter().map(|&l| { let k = &self.joiner.links[l]; format!("[\"{:?}\",{},{},{:.4}]", k.kind, k.outer, k.inner, k.offset) }).collect();
+                    format!("{{\"links\":[{}],\"shift\":{:.4},\"turned\":{},\"score\":{:.3},\"row\":{:?}}}", ls.join(","), j.place.shift, j.place.turned, j.score, j.row)
+                }).collect();
+                eprintln!("{{\"part\":{},\"joins\":[{}]}}", step.part, js.join(","));
+            }
+            let un: Vec<usize> = (0..self.own.len()).filter(|&p| runs[0].states.last().unwrap().placed[p].is_none()).collect();
+            for p in un { for &l in &self.own[p] { let k = &self.joiner.links[l]; eprintln!("{{\"unplaced\":{p},\"link\":[\"{:?}\",{},{},{:.4}]}}", k.kind, k.outer, k.inner, k.offset); } eprintln!("{{\"unplaced\":{p}}}"); }
+        }
         let tries = (3000 / self.joiner.shapes.loops.len().max(1)).clamp(3, 12);
         for _ in 0..tries {
             let Some(trial) = heap.pop() else { break };
