@@ -20,6 +20,9 @@ const VAGUE_CUSP: f64 = 0.06;
 /// Uncertainty from which an arc's ellipse tells nothing.
 const VAGUE: f64 = 0.02;
 
+/// Distance from an ellipse, relative to its major axis, up to which a point is on it.
+const ON: f64 = 5e-3;
+
 /// Ratio of an ellipse's axes from which it is a circle as drawn.
 const ROUND: f64 = 0.9995;
 
@@ -34,6 +37,8 @@ pub(super) struct Look {
     pub(super) bends: usize,
     /// Whether there are lines of two directions.
     pub(super) spread: bool,
+    /// Whether it is one closed edge that is no ellipse.
+    closed_bend: bool,
     /// Whether all edges lie on one ellipse and go around it once.
     pub(super) ring: bool,
     /// Corners where the edges leave the same way.
@@ -48,8 +53,10 @@ pub(super) struct Look {
     tapered: bool,
     /// Whether an edge is drawn as a circle, as a sphere's silhouette is.
     round: bool,
-    /// Smallest distance between parallel lines with curves between them, or none.
-    apart: bool,
+    /// Whether it is two parallel lines between a curve and its shifted copy.
+    swept: bool,
+    /// Whether it is two ellipses that touch at both ends, as no two circles of one plane do.
+    lens: bool,
 }
 
 impl Look {
@@ -100,10 +107,17 @@ impl Look {
                     .iter()
                     .any(|d| d.dot(arc.major).abs() < PARALLEL * arc.major.length())
         });
+        let surest = ellipses
+            .iter()
+            .min_by(|a, b| a.uncertainty.total_cmp(&b.uncertainty));
+        let one_ellipse = surest.is_some_and(|arc| {
+            let mut points = walk.iter().map(|c| &drawing.edges[c.edge()].points);
+            points.all(|p| on_ellipse(arc, p))
+        });
         look.ring = look.lines == 0
             && look.bends == 0
             && (sweep - std::f64::consts::TAU).abs() < 0.05
-            && ellipses.iter().all(|a| same(a, &ellipses[0]));
+            && one_ellipse;
         look.tapered = look.spread
             && look.lines == 2
             && look.curves == 2
@@ -118,13 +132,29 @@ impl Look {
                     && d.dot(sure[0].major).abs()
                         < (PARALLEL + 2.0 * sure[0].uncertainty) * sure[0].major.length()
             };
-        look.apart = look.lines >= 2 && !look.spread && look.curves >= 2;
+        look.swept = !look.spread && swept(drawing, walk);
+        look.closed_bend = walk.len() == 1 && look.bends == 1;
+        look.lens = ellipses.len() == 2
+            && walk.len() == 2
+            && !one_ellipse
+            && corners(walk).all(|(a, b)| {
+                tangent(drawing, a.mate())
+                    .perp_dot(tangent(drawing, b))
+                    .abs()
+                    < VAGUE_CUSP
+            });
         look
     }
 
     /// Whether the loop bounds no planar face, as far as it tells alone.
     pub(super) fn is_curved(&self) -> bool {
-        self.cusps > 0 || self.unlike || self.along_axis || self.tapered
+        self.cusps > 0
+            || self.unlike
+            || self.along_axis
+            || self.tapered
+            || self.lens
+            || self.closed_bend
+            || self.swept
     }
 
     /// How much the loop looks like a planar face's, to choose between neighbours.
@@ -148,10 +178,11 @@ impl Look {
         }
     }
 
-    /// The kind of surface if it is no plane: lines that are parallel rule a cylinder, others a
-    /// cone; without lines it is a sphere if drawn round, else a torus.
+    /// The kind of surface if it is no plane: lines that are parallel rule a cylinder, or sweep a
+    /// curve that is no circle; others rule a cone; without lines it is a sphere if drawn round, else a torus.
     pub(super) fn curved_kind(&self) -> SurfaceKind {
         match (self.lines, self.spread) {
+            (2, false) if self.swept && self.bends == 2 => SurfaceKind::Other,
             (1.., false) => SurfaceKind::Cylinder,
             (2, true) => SurfaceKind::Cone,
             (0, _) if self.round => SurfaceKind::Sphere,
@@ -164,6 +195,35 @@ impl Look {
 fn corners(walk: &[CoEdge]) -> impl Iterator<Item = (CoEdge, CoEdge)> + '_ {
     let next = walk.iter().cycle().skip(1);
     walk.iter().copied().zip(next.copied())
+}
+
+/// Whether a loop is a line, a curve, a line and a curve, and one curve is the other one shifted.
+fn swept(drawing: &Drawing, walk: &[CoEdge]) -> bool {
+    let &[a, b, c, d] = walk else {
+        return false;
+    };
+    let straight = |c: CoEdge| drawing.edges[c.edge()].is_straight();
+    let (p, q) = match [a, b, c, d].map(straight) {
+        [true, false, true, false] => (b, d),
+        [false, true, false, true] => (a, c),
+        _ => return false,
+    };
+    // Walked opposite ways around the loop.
+    let walked = |c: CoEdge, reversed: bool| {
+        let mut points = drawing.edges[c.edge()].points.clone();
+        if c.is_reversed() != reversed {
+            points.reverse();
+        }
+        points
+    };
+    let (p, q) = (walked(p, false), walked(q, true));
+    let shift = q[0] - p[0];
+    let chord = p[0].distance(p[p.len() - 1]);
+    let limit = 5e-3 * chord;
+    let bulge = |l: &[DVec2]| l[l.len() / 2] - (l[0] + l[l.len() - 1]) / 2.0;
+    (p[p.len() - 1] + shift).distance(q[q.len() - 1]) < limit
+        && p.len() == q.len()
+        && bulge(&p).distance(bulge(&q)) < limit
 }
 
 /// Whether a walk turns back where it goes from one edge to another.
@@ -236,8 +296,10 @@ fn same_center(a: &EllipseArc, b: &EllipseArc) -> bool {
     a.center.distance(b.center) < (0.01 + 3.0 * (a.uncertainty + b.uncertainty)) * larger
 }
 
-/// Whether two arcs are of one ellipse.
-fn same(a: &EllipseArc, b: &EllipseArc) -> bool {
-    let width = 0.01 + 3.0 * (a.uncertainty + b.uncertainty);
-    alike(a, b) && same_center(a, b) && (a.major.length() / b.major.length()).ln().abs() < width
+/// Whether points lie on an ellipse.
+fn on_ellipse(arc: &EllipseArc, points: &[DVec2]) -> bool {
+    let near = ON * arc.major.length();
+    points
+        .iter()
+        .all(|p| p.distance(arc.point(arc.parameter(*p))) < near)
 }

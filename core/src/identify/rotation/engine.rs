@@ -3,7 +3,7 @@
 use super::cuts::Cuts;
 use super::group::{Grouping, group};
 use super::{Field, HandScorer, TripleScorer, Triples};
-use crate::drawing::{CoEdge, Drawing, Graph};
+use crate::drawing::{CoEdge, Drawing, Graph, SurfaceKind};
 use crate::identify::kinds::kinds_of;
 use crate::identify::{
     Candidate, Engine, EngineKind, Evidence, Face, Identification, IdentifyError,
@@ -137,10 +137,22 @@ fn merged(loops: &[Face], grouping: &Grouping) -> Vec<Face> {
         }
         walk
     };
-    let faces = grouping.faces.iter().zip(&grouping.sureness);
+    let whole = |list: &[usize]| {
+        let kinds = list.iter().map(|&i| loops[i].kind);
+        // Two circles with nothing drawn between them: of what they bound a cone is likeliest.
+        let curved = |k: &SurfaceKind| *k != SurfaceKind::Plane;
+        kinds.filter(curved).min().unwrap_or(SurfaceKind::Cone)
+    };
+    let faces = grouping
+        .faces
+        .iter()
+        .zip(grouping.sureness.iter().zip(&grouping.round));
     faces
-        .map(|(list, sureness)| {
+        .map(|(list, (sureness, round))| {
             let mut face = loops[list[0]].clone();
+            if *round {
+                face.kind = whole(list);
+            }
             for &i in &list[1..] {
                 face.confidence = face.confidence.min(loops[i].confidence);
                 let margins = [face.evidence.margin, loops[i].evidence.margin];

@@ -35,12 +35,15 @@ pub(super) struct State {
     pub(super) roles: Vec<Role>,
     /// Loops drawn inside each loop in its face.
     pub(super) inner: Vec<Vec<usize>>,
+    /// Whether each loop is inside another one in its face.
+    pub(super) hung: Vec<bool>,
 }
 
 impl State {
     /// Makes a link true.
     pub(super) fn apply(&mut self, link: &Link) {
         self.inner[link.outer].push(link.inner);
+        self.hung[link.inner] = true;
         let role = match link.kind {
             LinkKind::Coplanar => Role::Flat,
             LinkKind::Coaxial => Role::Round,
@@ -50,7 +53,14 @@ impl State {
     }
 
     /// Whether a link does not contradict what loops are used as.
-    fn allows(&self, link: &Link) -> bool {
+    pub(super) fn allows(&self, link: &Link, shapes: &Shapes) -> bool {
+        if self.hung[link.outer] || self.hung[link.inner] || !self.inner[link.inner].is_empty() {
+            return false;
+        }
+        let apart = |&other: &usize| !shapes.nested(other, link.inner);
+        if !self.inner[link.outer].iter().all(apart) {
+            return false;
+        }
         let ends = [self.roles[link.outer], self.roles[link.inner]];
         match link.kind {
             LinkKind::Coplanar => !ends.contains(&Role::Round),
@@ -80,7 +90,7 @@ impl Joiner<'_> {
             };
             let turned = place.turned ^ link.same_sense;
             // Turned over, a circle is itself with its two loops exchanged.
-            if state.allows(link) && !(turned && self.shapes.parts[part].is_circle) {
+            if state.allows(link, self.shapes) && !(turned && self.shapes.parts[part].is_circle) {
                 moves.push((turned, place.shift + sign * link.offset, l));
             }
         }
@@ -124,14 +134,13 @@ impl Joiner<'_> {
         let mut trial = State {
             placed: Vec::new(),
             roles: state.roles.clone(),
-            inner: vec![Vec::new(); state.inner.len()],
+            inner: state.inner.clone(),
+            hung: state.hung.clone(),
         };
-        let mut hung = vec![false; self.shapes.loops.len()];
         list.retain(|&l| {
             let link = &self.links[l];
-            let good = !hung[link.inner] && trial.allows(link);
+            let good = trial.allows(link, self.shapes);
             if good {
-                hung[link.inner] = true;
                 trial.apply(link);
             }
             good
@@ -164,10 +173,17 @@ impl Joiner<'_> {
             mean(&|l| share(!state.inner[l.outer].is_empty())),
         );
         let loops = &self.shapes.loops;
-        set(
-            Feature::Area,
-            mean(&|l| (loops[l.inner].area / loops[l.outer].area).abs().sqrt()),
-        );
+        let width = |l: &Link| (loops[l.inner].area / loops[l.outer].area).abs().sqrt();
+        let of_kind = |l: &Link, kind| if l.kind == kind { width(l) } else { 0.0 };
+        set(Feature::Area, mean(&|l| of_kind(l, LinkKind::Coplanar)));
+        set(Feature::Narrow, mean(&|l| of_kind(l, LinkKind::Coaxial)));
+        set(Feature::Skips, mean(&|l| share(self.skips(l))));
+        if self.shapes.parts[part].is_circle {
+            set(
+                Feature::Lonely,
+                share(links().all(|l| l.kind == LinkKind::Coplanar)),
+            );
+        }
         set(Feature::Clearance, mean(&|l| self.clearance(l)));
         set(Feature::Centred, mean(&|l| self.centred(l)));
         set(Feature::Aligned, mean(&|l| self.aligned(l, state)));
@@ -215,6 +231,19 @@ impl Joiner<'_> {
             .sum();
         let to_viewer = (outer.area > 0.0) != base.turned;
         (above > 0.0) == to_viewer
+    }
+
+    /// Whether a third loop around the same axis is drawn between two.
+    fn skips(&self, link: &Link) -> bool {
+        let between = |l: &Link| {
+            l.kind == LinkKind::Coaxial
+                && l.outer == link.outer
+                && l.inner != link.inner
+                && self.shapes.nested(l.inner, link.inner)
+                && self.shapes.loops[l.inner].area.abs() > self.shapes.loops[link.inner].area.abs()
+                && self.part(l.inner) != self.part(link.inner)
+        };
+        link.kind == LinkKind::Coaxial && self.links.iter().any(between)
     }
 
     fn clearance(&self, link: &Link) -> f64 {
@@ -293,7 +322,10 @@ impl Joiner<'_> {
         // On one circle around the outer one's centre.
         if let Some(d) = self.eccentricity(link.outer, link.inner)
             && state.inner[link.outer].iter().any(|&i| {
-                i != link.inner && self.eccentricity(link.outer, i).is_some_and(|e| self.same(d, e))
+                i != link.inner
+                    && self
+                        .eccentricity(link.outer, i)
+                        .is_some_and(|e| self.same(d, e))
             })
         {
             return 2.0;

@@ -16,6 +16,8 @@ mod links;
 mod score;
 mod search;
 mod shapes;
+#[cfg(test)]
+mod tests;
 
 use crate::drawing::{Drawing, Graph};
 use crate::identify::Face;
@@ -30,6 +32,8 @@ pub(super) struct Grouping {
     pub(super) faces: Vec<Vec<usize>>,
     /// Probability that a face's grouping is right, as far as the scores tell.
     pub(super) sureness: Vec<f64>,
+    /// Whether each face is a surface of revolution between two circles.
+    pub(super) round: Vec<bool>,
     /// Whether each loop is to be walked backwards, so that all faces are seen from one side.
     pub(super) reversed: Vec<bool>,
     /// Log-odds against the best grouping.
@@ -42,18 +46,12 @@ pub(super) fn group(drawing: &Drawing, graph: &Graph, loops: &[Face]) -> Vec<Gro
         return vec![Grouping {
             faces: (0..loops.len()).map(|i| vec![i]).collect(),
             sureness: vec![1.0; loops.len()],
+            round: vec![false; loops.len()],
             reversed: vec![false; loops.len()],
             score: 0.0,
         }];
     };
     let shapes = Shapes::new(drawing, graph, &pieces, loops);
     let links = links::links(&shapes);
-    if std::env::var("FF_DUMP").is_ok() {
-        eprintln!("{{\"drawing\":{:?},\"axes\":{}}}", drawing.id, shapes.axes.len());
-        for (i, l) in shapes.loops.iter().enumerate() {
-            let e: Vec<i64> = loops[i].loops[0].iter().map(|c| c.signed()).collect();
-            eprintln!("{{\"loop\":{i},\"edges\":{e:?},\"part\":{},\"area\":{:.4},\"plane\":{},\"kind\":\"{:?}\",\"line\":\"{:?}\",\"main\":{}}}", l.part, l.area, l.plane.is_some(), loops[i].kind, l.line.map(|l| (l.axis, l.at.x, l.at.y, l.depth)), l.part == shapes.main_part().unwrap_or(0));
-        }
-    }
     search::Search::new(&shapes, &links, &HandJoinScorer).run()
 }

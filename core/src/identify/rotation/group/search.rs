@@ -20,6 +20,9 @@ const JOINS: usize = 6;
 /// Groupings that are given at most.
 const GROUPINGS: usize = 5;
 
+/// Score of a join that is not there yet, but may be when more is placed.
+const UNSEEN: f64 = -3.0;
+
 /// Log-odds by which a part waits whose links lead to larger parts that are not placed yet.
 const WAIT: f64 = 2.0;
 
@@ -120,17 +123,6 @@ impl<'a> Search<'a> {
         let mut seen = BTreeSet::new();
         let mut found = Vec::new();
         self.keep(&runs[0], &mut seen, &mut found);
-        if std::env::var("FF_DUMP").is_ok() {
-            for step in &runs[0].steps {
-                let js: Vec<String> = step.joins.iter().map(|j| {
-                    let ls: Vec<String> = j.links.iter().map(|&l| { let k = &self.joiner.links[l]; format!("[\"{:?}\",{},{},{:.4}]", k.kind, k.outer, k.inner, k.offset) }).collect();
-                    format!("{{\"links\":[{}],\"shift\":{:.4},\"turned\":{},\"score\":{:.3},\"row\":{:?}}}", ls.join(","), j.place.shift, j.place.turned, j.score, j.row)
-                }).collect();
-                eprintln!("{{\"part\":{},\"joins\":[{}]}}", step.part, js.join(","));
-            }
-            let un: Vec<usize> = (0..self.own.len()).filter(|&p| runs[0].states.last().unwrap().placed[p].is_none()).collect();
-            for p in un { for &l in &self.own[p] { let k = &self.joiner.links[l]; eprintln!("{{\"unplaced\":{p},\"link\":[\"{:?}\",{},{},{:.4}]}}", k.kind, k.outer, k.inner, k.offset); } eprintln!("{{\"unplaced\":{p}}}"); }
-        }
         let tries = (3000 / self.joiner.shapes.loops.len().max(1)).clamp(3, 12);
         for _ in 0..tries {
             let Some(trial) = heap.pop() else { break };
@@ -180,6 +172,7 @@ impl<'a> Search<'a> {
             placed: vec![None; shapes.parts.len()],
             roles: vec![Role::Free; shapes.loops.len()],
             inner: vec![Vec::new(); shapes.loops.len()],
+            hung: vec![false; shapes.loops.len()],
         };
         let mut around: Vec<Option<usize>> = vec![None; shapes.loops.len()];
         for (l, link) in self.joiner.links.iter().enumerate() {
@@ -198,8 +191,13 @@ impl<'a> Search<'a> {
                 }
             }
         }
-        for l in around.into_iter().flatten() {
-            state.apply(&self.joiner.links[l]);
+        let mut own: Vec<usize> = around.into_iter().flatten().collect();
+        let size = |l: usize| shapes.loops[self.joiner.links[l].inner].area.abs();
+        own.sort_by(|&a, &b| size(b).total_cmp(&size(a)));
+        for link in own.into_iter().map(|l| &self.joiner.links[l]) {
+            if state.allows(link, shapes) {
+                state.apply(link);
+            }
         }
         if !shapes.parts.is_empty() {
             let main = self.joiner.main;
@@ -239,8 +237,8 @@ impl<'a> Search<'a> {
                 let joins = cache[part]
                     .get_or_insert_with(|| self.joiner.joins(part, &self.own[part], &state));
                 let Some(first) = joins.first() else { continue };
-                let second = joins.get(1).map_or(0.0, |j| j.score);
-                let mut lead = first.score - second.max(0.0);
+                let second = joins.get(1).map_or(f64::NEG_INFINITY, |j| j.score);
+                let mut lead = first.score - second.max(UNSEEN);
                 let waits = self.own[part].iter().any(|&l| {
                     let link = &self.joiner.links[l];
                     let p = self.joiner.shapes.loops[link.outer].part;
@@ -343,6 +341,10 @@ impl<'a> Search<'a> {
             sureness: faces
                 .iter()
                 .map(|f| f.iter().map(|&i| sure[i]).fold(1.0, f64::min))
+                .collect(),
+            round: faces
+                .iter()
+                .map(|f| f.len() > 1 && state.roles[f[0]] == Role::Round)
                 .collect(),
             faces,
             reversed: shapes.loops.iter().map(|l| turned[l.part]).collect(),

@@ -118,8 +118,23 @@ impl Shapes {
 
     /// The part that is drawn largest.
     pub(super) fn main_part(&self) -> Option<usize> {
-        let extent = |p: &usize| (self.parts[*p].high - self.parts[*p].low).length();
-        (0..self.parts.len()).max_by(|a, b| extent(a).total_cmp(&extent(b)))
+        let extent = |p: usize| (self.parts[p].high - self.parts[p].low).length();
+        (0..self.parts.len()).max_by(|&a, &b| {
+            let bulky = |p: usize| !self.parts[p].is_circle;
+            bulky(a)
+                .cmp(&bulky(b))
+                .then(extent(a).total_cmp(&extent(b)))
+        })
+    }
+
+    /// Whether of two loops one is drawn inside the other, by a point of each.
+    pub(super) fn nested(&self, i: usize, j: usize) -> bool {
+        let (a, b) = (&self.loops[i], &self.loops[j]);
+        let first = |x: &Outline, y: &Outline| {
+            let p = y.polygon.get(y.polygon.len() / 2);
+            p.is_some_and(|p| x.contains(*p))
+        };
+        first(a, b) || first(b, a)
     }
 
     /// Volume that a part's loops enclose, each closed by a surface of its own; positive if they
@@ -262,7 +277,7 @@ fn outline(
     let curved = face.kind != SurfaceKind::Plane;
     let plane = (!curved).then(|| pieces.plane(index)).flatten();
     let ring = is_ring(drawing, pieces, face);
-    Outline {
+    let mut outline = Outline {
         part,
         vertices,
         area: area(&polygon),
@@ -273,10 +288,13 @@ fn outline(
         plane,
         curved,
         ring,
-        line: (ring || curved)
-            .then(|| axis_line(drawing, pieces, face))
-            .flatten(),
+        line: None,
+    };
+    if outline.ring || outline.curved {
+        // A face of revolution goes around its axis.
+        outline.line = axis_line(drawing, pieces, face).filter(|l| outline.contains(l.at));
     }
+    outline
 }
 
 fn area(polygon: &[DVec2]) -> f64 {
@@ -327,6 +345,9 @@ fn axis_line(drawing: &Drawing, pieces: &Pieces, face: &Face) -> Option<AxisLine
             depth: pieces.depth(v) - d.dot(n.truncate()) / n.z,
         });
     }
+    if let [only] = face.loops.concat().as_slice() {
+        return silhouette_axis(drawing, pieces, only.edge());
+    }
     // Corners on a circle, as where a cone cuts the sides of a prism.
     let corners: Vec<DVec2> = edges()
         .map(|e| drawing.edges[e].v[0])
@@ -345,4 +366,52 @@ fn axis_line(drawing: &Drawing, pieces: &Pieces, face: &Face) -> Option<AxisLine
             depth: pieces.depth(v) - (circle.center - drawing.vertices[v]).dot(n.truncate()) / n.z,
         })
     })
+}
+
+/// Axis of a closed silhouette, which is its own mirror image on the other side of the drawn axis.
+/// Its depth is not known: the place on the axis stands for it.
+fn silhouette_axis(drawing: &Drawing, pieces: &Pieces, edge: usize) -> Option<AxisLine> {
+    let points = &drawing.edges[edge].points;
+    let (low, high) = points
+        .iter()
+        .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(l, h), p| {
+            (l.min(*p), h.max(*p))
+        });
+    let mut best: Option<(f64, AxisLine)> = None;
+    for (axis, direction) in pieces.axes.iter().enumerate() {
+        let along = direction.truncate().normalize_or_zero();
+        let ends = |d: DVec2| {
+            let (p, q) = points
+                .iter()
+                .map(|p| p.dot(d))
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| {
+                    (l.min(x), h.max(x))
+                });
+            (p + q) / 2.0
+        };
+        let at = along * ends(along) + along.perp() * ends(along.perp());
+        let far = points
+            .iter()
+            .map(|p| {
+                let d = *p - at;
+                let image = at + d - along.perp() * (2.0 * d.dot(along.perp()));
+                nearest(points, image)
+            })
+            .fold(0.0, f64::max);
+        if far < 0.01 * (high - low).length() && best.as_ref().is_none_or(|b| far < b.0) {
+            let depth = pieces.depth(drawing.edges[edge].v[0]);
+            best = Some((far, AxisLine { axis, at, depth }));
+        }
+    }
+    best.map(|b| b.1)
+}
+
+/// Distance of a point from a polyline.
+fn nearest(points: &[DVec2], p: DVec2) -> f64 {
+    let spans = points.windows(2).map(|w| {
+        let d = w[1] - w[0];
+        let t = (p - w[0]).dot(d) / d.length_squared().max(f64::MIN_POSITIVE);
+        p.distance_squared(w[0] + d * t.clamp(0.0, 1.0))
+    });
+    spans.fold(f64::INFINITY, f64::min).sqrt()
 }
