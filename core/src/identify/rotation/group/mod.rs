@@ -3,13 +3,14 @@
 //! Every loop is a face of its own at first. Lifting gives planar loops a plane and circles an
 //! axis, and each part of the drawing that shares no vertex with the others a depth of its own.
 //!
-//! 1. [`shapes`]: the loops as drawn and lifted,
+//! 1. [`shapes`]: the loops as drawn and lifted, with the [`axis`] of circles,
 //! 2. [`links`]: pairs of loops that may be one face, and how far in depth each moves a part,
 //! 3. [`joins`]: links of a part that imply the same move support each other and make one join,
 //! 4. [`body`]: whether a part so placed is a pocket, a hole or a boss that a solid can have,
 //! 5. [`score`]: how likely a join is,
 //! 6. [`search`]: the likeliest joins of all parts, and ranked alternatives.
 
+mod axis;
 mod body;
 mod joins;
 mod links;

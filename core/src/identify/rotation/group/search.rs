@@ -230,12 +230,12 @@ impl<'a> Search<'a> {
         let mut cache: Vec<Option<Vec<Join>>> = vec![None; self.own.len()];
         loop {
             let mut best: Option<(f64, usize)> = None;
-            for part in 0..self.own.len() {
+            for (part, cached) in cache.iter_mut().enumerate() {
                 if state.placed[part].is_some() {
                     continue;
                 }
-                let joins = cache[part]
-                    .get_or_insert_with(|| self.joiner.joins(part, &self.own[part], &state));
+                let joins =
+                    cached.get_or_insert_with(|| self.joiner.joins(part, &self.own[part], &state));
                 let Some(first) = joins.first() else { continue };
                 let second = joins.get(1).map_or(f64::NEG_INFINITY, |j| j.score);
                 let mut lead = first.score - second.max(UNSEEN);
