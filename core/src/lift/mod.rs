@@ -31,6 +31,7 @@ mod tests;
 mod tests_central;
 
 pub use camera::Camera;
+pub(crate) use circle::circle_through;
 pub use error::LiftError;
 pub use metric::depth_error;
 pub use model::{Conflict, Lift, LiftMethod, LiftOptions, Surface};

@@ -4,6 +4,7 @@
 use glam::{DVec2, DVec3};
 
 use super::LiftError;
+use super::circle::DrawnCircle;
 use super::directions::Directions;
 use super::sheet::Sheet;
 use super::solve::{self, Solved};
@@ -17,6 +18,7 @@ pub(crate) struct Pieces {
     middles: Vec<DVec2>,
     /// Axes in the camera frame, as in [`Directions::axes`].
     pub(crate) axes: Vec<DVec3>,
+    circles: Vec<Option<(usize, DrawnCircle)>>,
 }
 
 /// A plane `z = -(a x + b y + c)`.
@@ -76,7 +78,13 @@ impl Pieces {
             solved,
             middles: sheet.middles.clone(),
             axes: sheet.directions.axes.iter().map(|a| a.direction).collect(),
+            circles: sheet.circles.clone(),
         }
+    }
+
+    /// The axis that an arc is a circle around, with the circle.
+    pub(crate) fn circle(&self, edge: usize) -> Option<(usize, DrawnCircle)> {
+        self.circles[edge]
     }
 
     /// Depth of a vertex.

@@ -1,9 +1,10 @@
 //! The engine: score, decode, read off loops.
 
 use super::cuts::Cuts;
+use super::group::{Grouping, group};
 use super::{Field, HandScorer, TripleScorer, Triples};
-use crate::drawing::{CoEdge, Drawing, Graph};
-use crate::identify::kinds::kind_of;
+use crate::drawing::{CoEdge, Drawing, Graph, SurfaceKind};
+use crate::identify::kinds::kinds_of;
 use crate::identify::{
     Candidate, Engine, EngineKind, Evidence, Face, Identification, IdentifyError,
 };
@@ -58,13 +59,18 @@ impl Engine for RotationEngine {
             };
             walk.iter().map(at).fold(f64::INFINITY, f64::min)
         };
-        let faces: Vec<Face> = system
-            .loops()
+        let walks = system.loops();
+        let kinds = kinds_of(
+            drawing,
+            &walks.iter().map(Vec::as_slice).collect::<Vec<_>>(),
+        );
+        let faces: Vec<Face> = walks
             .into_iter()
-            .map(|walk| {
+            .zip(kinds)
+            .map(|(walk, kind)| {
                 let margin = margin(&walk);
                 Face {
-                    kind: kind_of(drawing, &walk),
+                    kind,
                     loops: vec![walk],
                     confidence: confidence(margin),
                     evidence: Evidence {
@@ -76,14 +82,10 @@ impl Engine for RotationEngine {
             })
             .collect();
         progress.report(Stage::Identify, 0.7)?;
-        let mut candidates = super::group::group(drawing, &graph, &faces)
+        let mut candidates = group(drawing, &graph, &faces)
             .into_iter()
             .map(|grouping| Candidate {
-                faces: grouping
-                    .faces
-                    .iter()
-                    .map(|list| merged(&faces, list))
-                    .collect(),
+                faces: merged(&faces, &grouping),
                 score: grouping.score,
             });
         let best = candidates.next().map_or(faces.clone(), |c| c.faces);
@@ -125,12 +127,40 @@ fn check_degrees(graph: &Graph) -> Result<(), IdentifyError> {
     Ok(())
 }
 
-/// One face of several loops, the largest number of edges first.
-fn merged(loops: &[Face], list: &[usize]) -> Face {
-    let mut face = loops[list[0]].clone();
-    for &i in &list[1..] {
-        face.loops.extend(loops[i].loops.iter().cloned());
-        face.confidence = face.confidence.min(loops[i].confidence);
-    }
-    face
+/// The faces that a grouping makes of loops.
+fn merged(loops: &[Face], grouping: &Grouping) -> Vec<Face> {
+    let walk = |i: usize| {
+        let mut walk = loops[i].loops[0].clone();
+        if grouping.reversed[i] {
+            walk.reverse();
+            walk.iter_mut().for_each(|c| *c = c.mate());
+        }
+        walk
+    };
+    let whole = |list: &[usize]| {
+        let kinds = list.iter().map(|&i| loops[i].kind);
+        // Two circles with nothing drawn between them: of what they bound a cone is likeliest.
+        let curved = |k: &SurfaceKind| *k != SurfaceKind::Plane;
+        kinds.filter(curved).min().unwrap_or(SurfaceKind::Cone)
+    };
+    let faces = grouping
+        .faces
+        .iter()
+        .zip(grouping.sureness.iter().zip(&grouping.round));
+    faces
+        .map(|(list, (sureness, round))| {
+            let mut face = loops[list[0]].clone();
+            if *round {
+                face.kind = whole(list);
+            }
+            for &i in &list[1..] {
+                face.confidence = face.confidence.min(loops[i].confidence);
+                let margins = [face.evidence.margin, loops[i].evidence.margin];
+                face.evidence.margin = margins.into_iter().flatten().reduce(f64::min);
+            }
+            face.loops = list.iter().map(|&i| walk(i)).collect();
+            face.confidence *= sureness;
+            face
+        })
+        .collect()
 }

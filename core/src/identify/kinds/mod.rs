@@ -1,0 +1,15 @@
+//! Surface kinds of faces: from a loop as drawn, from how loops meet, and from lifted faces.
+
+mod look;
+mod planar;
+
+pub(crate) use planar::kinds_of;
+
+use crate::drawing::{CoEdge, Drawing, SurfaceKind};
+use look::Look;
+
+/// The kind of surface that a loop of co-edges most likely bounds, by the loop alone; see
+/// [`Look::kind`].
+pub(crate) fn kind_of(drawing: &Drawing, walk: &[CoEdge]) -> SurfaceKind {
+    Look::new(drawing, walk).kind()
+}

@@ -1,0 +1,67 @@
+//! How likely a join is.
+//!
+//! A join is described by features, and a score made of them; only the score knows how people
+//! model parts. A trained score takes the place of the weights here by the trait [`JoinScorer`].
+
+/// Features of a join, in the order of [`Feature`].
+pub(super) type Row = [f64; COUNT];
+
+macro_rules! features {
+    ($($name:ident $weight:literal: $text:literal,)*) => {
+        /// The features of a join, in the order of a row.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        pub(super) enum Feature {
+            $(#[doc = $text] $name,)*
+        }
+
+        /// Number of features.
+        pub(super) const COUNT: usize = [$(Feature::$name,)*].len();
+
+        /// Weights without a trained model, log-odds for one unit.
+        const WEIGHTS: [f64; COUNT] = [$($weight,)*];
+    };
+}
+
+features! {
+    More 0.40: "Further loops of the part that the same move puts into faces.",
+    Coaxial -2.01: "One of the links is along an axis.",
+    Doubtful -1.21: "A circle is put into a plane although it is drawn around another one's axis.",
+    Right -1.02: "Share of a pocket's points inside the solid, or of a boss' outside.",
+    Wrong -4.57: "Share of a pocket's points outside the solid, or of a boss' inside.",
+    Pierced -0.88: "Share of other parts' points inside the part.",
+    Boss -1.76: "The part is on the outer side of the face.",
+    Through 2.17: "The part opens in two planes.",
+    Area 0.41: "Drawn width of the inner loop over that of the outer one in their plane.",
+    Narrow 1.50: "The same for two circles of a surface of revolution.",
+    Skips -2.00: "A third circle is drawn between two of a surface of revolution.",
+    Lonely -1.00: "The part is one circle, and both its sides would be planes.",
+    Shared -0.11: "The face has other inner loops.",
+    Centred 2.50: "Directions of the face in which the inner loop is centred.",
+    Aligned 2.84: "Directions in which the inner loop lies as another one of the face does.",
+    Level 0.11: "Share of the part's other planes that are level with one that is placed.",
+    Clearance 0.99: "Drawn distance between inner and outer loop, over the inner one's width.",
+    Main -0.37: "The other part is the main one.",
+    Host -2.86: "The part placed hangs on this one.",
+}
+
+/// Gives a join's score from its features.
+///
+/// Scores of the joins of one part are compared with each other: as log-odds, larger is likelier.
+pub(super) trait JoinScorer {
+    /// Score of a join.
+    fn score(&self, row: &Row) -> f64;
+}
+
+/// A weighted sum with fixed weights.
+///
+/// They come from a conditional logit over the joins of each part, fitted to drawings of real parts
+/// (block machining features, a parts library, electronic parts); those of links along an axis are
+/// set by hand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) struct HandJoinScorer;
+
+impl JoinScorer for HandJoinScorer {
+    fn score(&self, row: &Row) -> f64 {
+        row.iter().zip(WEIGHTS).map(|(x, w)| x * w).sum()
+    }
+}

@@ -1,0 +1,297 @@
+//! Loops and parts as drawn and lifted.
+
+use glam::{DVec2, DVec3};
+
+use super::axis::{AxisLine, axis_line, is_ring};
+use crate::drawing::{Drawing, Graph, SurfaceKind};
+use crate::identify::Face;
+use crate::lift::{Pieces, Tilt};
+
+/// Error of depth that is allowed, relative to the drawing's size.
+const SAME: f64 = 2e-3;
+
+/// A loop.
+#[derive(Debug, Clone)]
+pub(super) struct Outline {
+    pub(super) part: usize,
+    pub(super) vertices: Vec<usize>,
+    /// As drawn, in the order of its walk.
+    pub(super) polygon: Vec<DVec2>,
+    /// Depth of each point of the polygon in its part.
+    depths: Vec<f64>,
+    pub(super) low: DVec2,
+    pub(super) high: DVec2,
+    /// Signed area as drawn, positive if counter-clockwise.
+    pub(super) area: f64,
+    /// Its plane, if it may bound one and the slope is known.
+    pub(super) plane: Option<Tilt>,
+    /// Whether it bounds no plane.
+    pub(super) curved: bool,
+    /// Whether it is a whole circle.
+    pub(super) ring: bool,
+    /// Axis of a circle, or of a curved face that is one of revolution.
+    pub(super) line: Option<AxisLine>,
+}
+
+/// A part of the drawing that shares no vertex with the others.
+#[derive(Debug, Clone)]
+pub(super) struct Part {
+    pub(super) loops: Vec<usize>,
+    /// Points of its edges, with depth in the part.
+    pub(super) samples: Vec<DVec3>,
+    pub(super) low: DVec2,
+    pub(super) high: DVec2,
+    /// Whether it is one closed edge, whose two loops are alike.
+    pub(super) is_circle: bool,
+}
+
+/// All loops and parts.
+pub(super) struct Shapes {
+    pub(super) loops: Vec<Outline>,
+    pub(super) parts: Vec<Part>,
+    /// Axes towards the viewer, three of a frame, or one.
+    pub(super) axes: Vec<DVec3>,
+    /// Size of the drawing.
+    pub(super) size: f64,
+    /// Difference of depth up to which two are one.
+    pub(super) tolerance: f64,
+}
+
+impl Shapes {
+    pub(super) fn new(drawing: &Drawing, graph: &Graph, pieces: &Pieces, faces: &[Face]) -> Self {
+        let depths = edge_depths(drawing, pieces, faces);
+        let loops: Vec<Outline> = faces
+            .iter()
+            .enumerate()
+            .map(|(i, face)| outline(drawing, graph, pieces, &depths, i, face))
+            .collect();
+        let mut parts: Vec<Part> = (0..graph.component_count())
+            .map(|_| Part {
+                loops: Vec::new(),
+                samples: Vec::new(),
+                low: DVec2::INFINITY,
+                high: DVec2::NEG_INFINITY,
+                is_circle: false,
+            })
+            .collect();
+        for (i, outline) in loops.iter().enumerate() {
+            let part = &mut parts[outline.part];
+            part.loops.push(i);
+            part.low = part.low.min(outline.low);
+            part.high = part.high.max(outline.high);
+        }
+        let mut edges = vec![0; parts.len()];
+        for (e, edge) in drawing.edges.iter().enumerate() {
+            let p = graph.component(edge.v[0]);
+            edges[p] += 1;
+            let n = edge.points.len();
+            let picks = if edge.is_straight() {
+                let (a, b) = (edge.points[0], edge.points[n - 1]);
+                let (y, z) = (depths[e][0], depths[e][n - 1]);
+                [0.0, 0.27, 0.5, 0.73].map(|t| a.lerp(b, t).extend(y + (z - y) * t))
+            } else {
+                [0, n / 4, n / 2, 3 * n / 4].map(|k| edge.points[k].extend(depths[e][k]))
+            };
+            parts[p].samples.extend(picks);
+        }
+        for (part, edges) in parts.iter_mut().zip(edges) {
+            part.is_circle = edges == 1;
+        }
+        Self {
+            loops,
+            parts,
+            axes: pieces.axes.clone(),
+            size: drawing.size(),
+            tolerance: SAME * drawing.size(),
+        }
+    }
+
+    /// The part that is drawn largest.
+    pub(super) fn main_part(&self) -> Option<usize> {
+        let extent = |p: usize| (self.parts[p].high - self.parts[p].low).length();
+        (0..self.parts.len()).max_by(|&a, &b| {
+            let bulky = |p: usize| !self.parts[p].is_circle;
+            bulky(a)
+                .cmp(&bulky(b))
+                .then(extent(a).total_cmp(&extent(b)))
+        })
+    }
+
+    /// Whether of two loops one is drawn inside the other, by a point of each.
+    pub(super) fn nested(&self, i: usize, j: usize) -> bool {
+        let (a, b) = (&self.loops[i], &self.loops[j]);
+        let first = |x: &Outline, y: &Outline| {
+            let p = y.polygon.get(y.polygon.len() / 2);
+            p.is_some_and(|p| x.contains(*p))
+        };
+        first(a, b) || first(b, a)
+    }
+
+    /// Volume that a part's loops enclose, each closed by a surface of its own; positive if they
+    /// are counter-clockwise seen from outside.
+    pub(super) fn volume(&self, part: usize) -> f64 {
+        let loops = &self.parts[part].loops;
+        loops.iter().map(|&i| self.loops[i].below()).sum()
+    }
+}
+
+impl Outline {
+    /// Depth of the loop's surface at a drawn point inside it, in its part; for a curved one
+    /// between its boundary on either side.
+    pub(super) fn depth(&self, p: DVec2) -> f64 {
+        if let Some(plane) = self.plane {
+            return plane.depth(p);
+        }
+        // Distance and depth of the nearest boundary point on either side.
+        let mut sides: [Option<(f64, f64)>; 2] = [None; 2];
+        let n = self.polygon.len();
+        for i in 0..n {
+            let k = (i + 1) % n;
+            let (a, b) = (self.polygon[i], self.polygon[k]);
+            if (a.y > p.y) == (b.y > p.y) {
+                continue;
+            }
+            let t = (p.y - a.y) / (b.y - a.y);
+            let (x, z) = (
+                a.x + t * (b.x - a.x) - p.x,
+                self.depths[i] + t * (self.depths[k] - self.depths[i]),
+            );
+            let side = &mut sides[usize::from(x >= 0.0)];
+            if side.is_none_or(|s| x.abs() < s.0) {
+                *side = Some((x.abs(), z));
+            }
+        }
+        match sides {
+            [Some((d, y)), Some((e, z))] if d + e > 0.0 => (y * e + z * d) / (d + e),
+            [Some((_, z)), _] | [_, Some((_, z))] => z,
+            _ => self.depths.iter().sum::<f64>() / n.max(1) as f64,
+        }
+    }
+
+    /// Whether a drawn point is inside.
+    pub(super) fn contains(&self, p: DVec2) -> bool {
+        if p.cmplt(self.low).any() || p.cmpgt(self.high).any() {
+            return false;
+        }
+        let mut inside = false;
+        let n = self.polygon.len();
+        for i in 0..n {
+            let (a, b) = (self.polygon[i], self.polygon[(i + 1) % n]);
+            if (a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x {
+                inside = !inside;
+            }
+        }
+        inside
+    }
+
+    /// Mean depth of a fan of triangles over the loop times its signed area.
+    fn below(&self) -> f64 {
+        let n = self.polygon.len();
+        let Some(&o) = self.polygon.first() else {
+            return 0.0;
+        };
+        (1..n.saturating_sub(1))
+            .map(|i| {
+                let area = (self.polygon[i] - o).perp_dot(self.polygon[i + 1] - o) / 2.0;
+                area * (self.depths[0] + self.depths[i] + self.depths[i + 1]) / 3.0
+            })
+            .sum()
+    }
+}
+
+/// Depths of the points of every edge: on a circle's plane, on a neighbouring plane, else between
+/// the ends.
+fn edge_depths(drawing: &Drawing, pieces: &Pieces, faces: &[Face]) -> Vec<Vec<f64>> {
+    let mut plane_of = vec![None; drawing.edges.len()];
+    for (i, face) in faces.iter().enumerate() {
+        let plane = (face.kind == SurfaceKind::Plane)
+            .then(|| pieces.plane(i))
+            .flatten();
+        for c in face.loops.iter().flatten() {
+            if plane.is_some() {
+                plane_of[c.edge()] = plane;
+            }
+        }
+    }
+    let mut all = Vec::with_capacity(drawing.edges.len());
+    for (e, edge) in drawing.edges.iter().enumerate() {
+        let [y, z] = edge.v.map(|v| pieces.depth(v));
+        let n = (edge.points.len() - 1) as f64;
+        let start = edge.points[0];
+        let depth = |(k, p): (usize, &DVec2)| {
+            if edge.is_straight() {
+                return y + (z - y) * k as f64 / n;
+            }
+            let d = *p - start;
+            if let Some((axis, _)) = pieces.circle(e) {
+                let normal = pieces.axes[axis];
+                return y - d.dot(normal.truncate()) / normal.z;
+            }
+            match plane_of[e] {
+                Some(t) => y + t.depth(*p) - t.depth(start),
+                None => y + (z - y) * k as f64 / n,
+            }
+        };
+        all.push(edge.points.iter().enumerate().map(depth).collect());
+    }
+    all
+}
+
+fn outline(
+    drawing: &Drawing,
+    graph: &Graph,
+    pieces: &Pieces,
+    edge_depths: &[Vec<f64>],
+    index: usize,
+    face: &Face,
+) -> Outline {
+    let mut polygon = Vec::new();
+    let mut depths = Vec::new();
+    let mut part = 0;
+    let mut vertices = Vec::new();
+    for c in face.loops.iter().flatten() {
+        part = graph.component(graph.origin(*c));
+        vertices.push(graph.origin(*c));
+        let points = &drawing.edges[c.edge()].points;
+        let n = points.len() - 1;
+        for k in 0..n {
+            let k = if c.is_reversed() { n - k } else { k };
+            polygon.push(points[k]);
+            depths.push(edge_depths[c.edge()][k]);
+        }
+    }
+    let (low, high) = polygon
+        .iter()
+        .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(l, h), p| {
+            (l.min(*p), h.max(*p))
+        });
+    let curved = face.kind != SurfaceKind::Plane;
+    let plane = (!curved).then(|| pieces.plane(index)).flatten();
+    let ring = is_ring(drawing, pieces, face);
+    let mut outline = Outline {
+        part,
+        vertices,
+        area: area(&polygon),
+        polygon,
+        depths,
+        low,
+        high,
+        plane,
+        curved,
+        ring,
+        line: None,
+    };
+    if outline.ring || outline.curved {
+        // A face of revolution goes around its axis.
+        outline.line = axis_line(drawing, pieces, face).filter(|l| outline.contains(l.at));
+    }
+    outline
+}
+
+fn area(polygon: &[DVec2]) -> f64 {
+    let n = polygon.len();
+    (0..n)
+        .map(|i| polygon[i].perp_dot(polygon[(i + 1) % n]))
+        .sum::<f64>()
+        / 2.0
+}

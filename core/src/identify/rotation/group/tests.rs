@@ -1,0 +1,240 @@
+//! Boxes with pockets, holes and bosses, seen from anywhere.
+
+use std::collections::BTreeSet;
+
+use glam::{DMat3, DVec3};
+use proptest::prelude::*;
+
+use super::*;
+use crate::Progress;
+use crate::drawing::{CoEdge, SurfaceKind};
+use crate::identify::rotation::RotationEngine;
+use crate::identify::testing::{bracket, holed_cube, polyhedron};
+use crate::identify::{Engine, Evidence, from_truth};
+
+/// What is in the top of a box of 4 by 3 by 2.
+#[derive(Debug, Clone, Copy)]
+struct Feature {
+    low: [f64; 2],
+    high: [f64; 2],
+    /// Height of its other end: 0 for a hole, above 2 for a boss.
+    end: f64,
+}
+
+fn block(features: &[Feature]) -> Drawing {
+    let ring = |low: [f64; 2], high: [f64; 2], z: f64| {
+        [
+            [low[0], low[1], z],
+            [high[0], low[1], z],
+            [high[0], high[1], z],
+            [low[0], high[1], z],
+        ]
+    };
+    let mut corners = Vec::new();
+    corners.extend(ring([0.0; 2], [4.0, 3.0], 0.0));
+    corners.extend(ring([0.0; 2], [4.0, 3.0], 2.0));
+    let mut bottom: Vec<Vec<usize>> = vec![vec![3, 2, 1, 0]];
+    let mut top: Vec<Vec<usize>> = vec![vec![4, 5, 6, 7]];
+    let mut walls: Vec<Vec<usize>> = vec![];
+    for i in 0..4 {
+        let j = (i + 1) % 4;
+        walls.push(vec![i, j, 4 + j, 4 + i]);
+    }
+    for f in features {
+        let at = corners.len();
+        corners.extend(ring(f.low, f.high, 2.0));
+        corners.extend(ring(f.low, f.high, f.end));
+        top.push(vec![at + 3, at + 2, at + 1, at]);
+        let end: Vec<usize> = (at + 4..at + 8).collect();
+        if f.end == 0.0 {
+            bottom.push(end);
+        } else {
+            walls.push(end);
+        }
+        for i in 0..4 {
+            let j = (i + 1) % 4;
+            walls.push(vec![at + i, at + j, at + 4 + j, at + 4 + i]);
+        }
+    }
+    let mut faces = vec![bottom, top];
+    faces.extend(walls.into_iter().map(|w| vec![w]));
+    let faces: Vec<Vec<&[usize]>> = faces
+        .iter()
+        .map(|f| f.iter().map(Vec::as_slice).collect())
+        .collect();
+    let faces: Vec<&[&[usize]]> = faces.iter().map(Vec::as_slice).collect();
+    polyhedron(&corners, &faces)
+}
+
+/// The same solid seen from another side.
+fn seen(mut drawing: Drawing, turn: f64, tilt: f64) -> Drawing {
+    let truth = drawing.truth.as_mut().unwrap();
+    let to_model = DMat3::from_cols(
+        truth.directions[0],
+        truth.directions[1],
+        truth.directions[2],
+    )
+    .transpose();
+    let view = DMat3::from_rotation_x(tilt) * DMat3::from_rotation_z(turn) * to_model;
+    let turned: Vec<DVec3> = truth.vertices3d.iter().map(|p| view * *p).collect();
+    drawing.vertices = turned.iter().map(|p| p.truncate()).collect();
+    for edge in &mut drawing.edges {
+        edge.points = edge.v.map(|v| drawing.vertices[v]).to_vec();
+    }
+    truth.vertices3d = turned;
+    drawing
+}
+
+fn single_loops(drawing: &Drawing) -> Vec<Face> {
+    let truth = drawing.truth.as_ref().unwrap();
+    let loops = truth.faces.iter().flat_map(|f| &f.loops);
+    loops
+        .map(|walk| Face {
+            kind: SurfaceKind::Plane,
+            loops: vec![walk.clone()],
+            confidence: 1.0,
+            evidence: Evidence::default(),
+        })
+        .collect()
+}
+
+fn edge_sets(faces: &[Face]) -> BTreeSet<Vec<usize>> {
+    faces.iter().map(Face::edge_set).collect()
+}
+
+/// A feature over the box from `x` to `x + 2`; a blind pocket only if `pocket`: two of them have four
+/// readings that are all consistent, each from above or from below.
+fn feature(x: f64, pocket: bool) -> impl Strategy<Value = Feature> {
+    let inset = 0.15..0.5;
+    (
+        inset.clone(),
+        inset.clone(),
+        inset.clone(),
+        inset,
+        0..3usize,
+        0.3..1.7f64,
+    )
+        .prop_map(move |(a, b, c, d, kind, depth)| Feature {
+            low: [x + a, b],
+            high: [x + 2.0 - c, 3.0 - d],
+            end: match kind {
+                0 => 0.0,
+                1 if pocket => 2.0 - depth,
+                // Too high to be a pocket of the box.
+                _ => 4.2 + depth,
+            },
+        })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(48))]
+
+    #[test]
+    fn the_truth_is_among_the_first_three(
+        left in feature(0.0, true),
+        right in proptest::option::of(feature(2.0, false)),
+        turn in 0.3..0.6f64,
+        tilt in -1.1..-0.6f64,
+    ) {
+        let features: Vec<Feature> = [left].into_iter().chain(right).collect();
+        let drawing = seen(block(&features), turn, tilt);
+        let graph = Graph::new(&drawing);
+        let loops = single_loops(&drawing);
+        let truth = edge_sets(&from_truth(&drawing).unwrap().faces);
+        let found = group(&drawing, &graph, &loops);
+        let at = found.iter().position(|g| {
+            let merged = g.faces.iter().map(|list| {
+                let mut edges: Vec<usize> =
+                    list.iter().flat_map(|&i| loops[i].edge_set()).collect();
+                edges.sort_unstable();
+                edges
+            });
+            merged.collect::<BTreeSet<_>>() == truth
+        });
+        prop_assert!(at.is_some_and(|k| k < 3), "{at:?} of {}", found.len());
+        for g in &found {
+            let mut all: Vec<usize> = g.faces.concat();
+            all.sort_unstable();
+            prop_assert_eq!(all, (0..loops.len()).collect::<Vec<_>>());
+            prop_assert!(g.score <= found[0].score);
+            prop_assert!(g.sureness.iter().all(|s| (0.0..=1.0 + 1e-9).contains(s)));
+        }
+    }
+
+    #[test]
+    fn faces_do_not_depend_on_numbers_mirror_or_scale(
+        which in 0..2usize,
+        rotate in 0..24usize,
+        mirror in any::<bool>(),
+        scale in 0.01..100.0f64,
+    ) {
+        let drawing = [bracket, holed_cube][which]();
+        let find = |d: &Drawing| {
+            RotationEngine::default().identify(d, Progress::none()).unwrap().faces
+        };
+        let n = drawing.edges.len();
+        let mut other = drawing.clone();
+        other.truth = None;
+        let by = rotate % n;
+        other.edges.rotate_left(by);
+        let map = |p: &mut glam::DVec2| {
+            *p *= scale;
+            if mirror {
+                p.x = -p.x;
+            }
+        };
+        other.vertices.iter_mut().for_each(map);
+        other.edges.iter_mut().flat_map(|e| &mut e.points).for_each(map);
+        let back: BTreeSet<Vec<usize>> = edge_sets(&find(&other))
+            .into_iter()
+            .map(|edges| {
+                let mut edges: Vec<usize> = edges.into_iter().map(|e| (e + by) % n).collect();
+                edges.sort_unstable();
+                edges
+            })
+            .collect();
+        prop_assert_eq!(back, edge_sets(&find(&drawing)));
+    }
+}
+
+#[test]
+fn inner_loops_go_round_the_other_way() {
+    let drawing = holed_cube();
+    let found = RotationEngine::default()
+        .identify(&drawing, Progress::none())
+        .unwrap();
+    let mut used = vec![0; 2 * drawing.edges.len()];
+    let area = |walk: &[CoEdge]| {
+        let points: Vec<_> = walk
+            .iter()
+            .map(|c| {
+                let points = &drawing.edges[c.edge()].points;
+                points[if c.is_reversed() { points.len() - 1 } else { 0 }]
+            })
+            .collect();
+        (0..points.len())
+            .map(|i| points[i].perp_dot(points[(i + 1) % points.len()]))
+            .sum::<f64>()
+    };
+    for face in &found.faces {
+        for walk in &face.loops[1..] {
+            assert!(area(&face.loops[0]) * area(walk) < 0.0);
+            assert!(area(&face.loops[0]).abs() > area(walk).abs());
+        }
+        for c in face.loops.iter().flatten() {
+            used[c.index()] += 1;
+        }
+    }
+    assert!(used.iter().all(|&n| n == 1));
+    assert_eq!(found.faces.iter().filter(|f| f.loops.len() == 2).count(), 2);
+}
+
+#[test]
+fn without_directions_loops_stay_alone() {
+    let drawing = holed_cube();
+    let graph = Graph::new(&drawing);
+    assert_eq!(group(&drawing, &graph, &[]).len(), 1);
+    let one = crate::identify::rotation::samples::circle();
+    let found = group(&one, &Graph::new(&one), &[]);
+    assert_eq!(found[0].faces, Vec::<Vec<usize>>::new());
+}
