@@ -155,9 +155,4 @@ void check_model(const Model &model, const Topology &topology, const TopoDS_Shap
   }
 }
 
-bool is_sound(const Model &model, const TopoDS_Shape &solid) {
-  return BRepCheck_Analyzer(solid).IsValid() && shell_fault(solid).empty() &&
-         largest_tolerance(solid) <= model.tolerance;
-}
-
 } // namespace faceformer::occt

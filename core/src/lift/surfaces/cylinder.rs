@@ -1,12 +1,12 @@
-//! Surfaces of faces from lifted depths.
+//! Cylinders: axis, then radius and centre from the boundary seen along the axis.
 
-use glam::{DMat3, DVec2, DVec3};
+use glam::{DVec2, DVec3};
 
-use super::Surface;
-use super::circle::circle_fit;
-use super::sheet::Sheet;
-use super::solve::Solved;
-use crate::drawing::SurfaceKind;
+use super::evidence::vertex;
+use crate::lift::Surface;
+use crate::lift::circle::circle_fit;
+use crate::lift::sheet::Sheet;
+use crate::lift::solve::Solved;
 
 /// Largest distance, relative to the drawing's size, of a boundary point from a cylinder.
 const OFF_CYLINDER: f64 = 1e-3;
@@ -15,54 +15,8 @@ const OFF_CYLINDER: f64 = 1e-3;
 /// its points.
 const NARROW: f64 = 0.7;
 
-pub(super) fn surface(sheet: &Sheet<'_>, solved: &Solved, face: usize) -> Surface {
-    match sheet.faces[face].kind {
-        SurfaceKind::Plane => plane(sheet, solved, face).unwrap_or(Surface::Unknown),
-        SurfaceKind::Cylinder => cylinder(sheet, solved, face).unwrap_or(Surface::Unknown),
-        _ => Surface::Unknown,
-    }
-}
-
-fn vertex(sheet: &Sheet<'_>, solved: &Solved, v: usize) -> DVec3 {
-    sheet.drawing.vertices[v].extend(solved.depth(v))
-}
-
-fn plane(sheet: &Sheet<'_>, solved: &Solved, face: usize) -> Option<Surface> {
-    if let Some([a, b, c]) = solved.plane(face) {
-        return Some(Surface::Plane {
-            origin: sheet.middles[face].extend(-c),
-            normal: DVec3::new(a, b, 1.0).normalize(),
-        });
-    }
-    let points: Vec<DVec3> = sheet.corners[face]
-        .iter()
-        .map(|&v| vertex(sheet, solved, v))
-        .collect();
-    let (origin, normal) = best_plane(&points)?;
-    Some(Surface::Plane { origin, normal })
-}
-
-/// Plane through the mean of points, normal to the direction of their smallest spread; `None` if
-/// they lie on a line.
-fn best_plane(points: &[DVec3]) -> Option<(DVec3, DVec3)> {
-    let origin = points.iter().sum::<DVec3>() / points.len() as f64;
-    let mut spread = DMat3::ZERO;
-    for p in points {
-        let d = *p - origin;
-        spread += DMat3::from_cols(d * d.x, d * d.y, d * d.z);
-    }
-    // The adjugate of a matrix of rank two is the projector on its null vector.
-    let (x, y, z) = (spread.x_axis, spread.y_axis, spread.z_axis);
-    let rows = [y.cross(z), z.cross(x), x.cross(y)];
-    let longest = rows
-        .into_iter()
-        .max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()))?;
-    let scale = x.x + y.y + z.z;
-    (longest.length() > 1e-8 * scale * scale).then(|| (origin, longest.normalize()))
-}
-
 /// Axis, then radius and centre from the boundary seen along the axis.
-fn cylinder(sheet: &Sheet<'_>, solved: &Solved, face: usize) -> Option<Surface> {
+pub(super) fn cylinder(sheet: &Sheet<'_>, solved: &Solved, face: usize) -> Option<Surface> {
     let axis = cylinder_axis(sheet, solved, face)?;
     let u = axis.any_orthonormal_vector();
     let w = axis.cross(u);
