@@ -22,7 +22,7 @@ use super::sheet::Sheet;
 use super::solve::Solved;
 use crate::drawing::SurfaceKind;
 use evidence::Evidence;
-use wholes::wholes;
+pub(super) use wholes::touching;
 
 /// Rounds in which surfaces help their neighbours; the first ones ask for a better fit.
 const ROUNDS: [f64; 4] = [2e-5, 1e-4, 1e-3, 1e-3];
@@ -39,7 +39,7 @@ pub(super) fn surfaces(sheet: &Sheet<'_>, solved: &Solved) -> Vec<Surface> {
             found.unwrap_or(Surface::Unknown)
         })
         .collect();
-    let wholes = wholes(sheet);
+    let wholes = wholes::surfaces(sheet);
     for tolerance in ROUNDS {
         for whole in &wholes {
             if whole.iter().any(|&f| known[f] == Surface::Unknown) {
