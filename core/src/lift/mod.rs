@@ -7,7 +7,9 @@
 
 mod assumed;
 mod circle;
+mod completion;
 mod conflicts;
+mod depths;
 pub mod directions;
 mod error;
 mod metric;
@@ -127,7 +129,7 @@ fn finish(sheet: &Sheet<'_>, solved: &Solved) -> Lift {
     let count = sheet.drawing.vertices.len();
     let mean = (0..count).map(|v| solved.depth(v)).sum::<f64>() / count.max(1) as f64;
     let depths: Vec<f64> = (0..count).map(|v| solved.depth(v) - mean).collect();
-    let surfaces: Vec<Surface> = surfaces::surfaces(sheet, solved)
+    let surfaces: Vec<Surface> = surfaces::surfaces(sheet, &solved.depths(sheet))
         .into_iter()
         .map(|surface| surface.lowered(mean))
         .collect();

@@ -68,22 +68,36 @@ pub(super) fn crossings(torus: &Surface, from: DVec3, direction: DVec3) -> Vec<f
 /// How far a line is from touching a torus: the least magnitude of the distance where it is
 /// extreme along the line; infinite if it passes far away.
 pub(super) fn touching_gap(torus: &Surface, from: DVec3, direction: DVec3) -> f64 {
+    let extremes = extremes(torus, from, direction).into_iter();
+    extremes.fold(f64::INFINITY, |m, (_, gap)| m.min(gap))
+}
+
+/// Values of t where the line `from + t direction` touches a torus within `tolerance`.
+pub(super) fn touches(torus: &Surface, from: DVec3, direction: DVec3, tolerance: f64) -> Vec<f64> {
+    let all = extremes(torus, from, direction).into_iter();
+    let least = all.min_by(|a, b| a.1.total_cmp(&b.1));
+    let near = least.filter(|(_, gap)| *gap < tolerance);
+    near.into_iter().map(|(t, _)| t).collect()
+}
+
+/// Places along a line where the distance from a torus is extreme, with its magnitude.
+fn extremes(torus: &Surface, from: DVec3, direction: DVec3) -> Vec<(f64, f64)> {
     let Some((step, first, values)) = samples(torus, from, direction) else {
-        return f64::INFINITY;
+        return Vec::new();
     };
     let at = |t: f64| torus.distance(from + direction * t);
-    let mut least = f64::INFINITY;
+    let mut found = Vec::new();
     for i in 1..STEPS {
         let t = first + step * i as f64;
         for sign in [1.0, -1.0] {
             let v = |j: usize| sign * values[j];
             if v(i) <= v(i - 1) && v(i) <= v(i + 1) {
                 let best = narrow(&|t| sign * at(t), t - step, t + step);
-                least = least.min(at(best).abs());
+                found.push((best, at(best).abs()));
             }
         }
     }
-    least
+    found
 }
 
 fn extreme(values: &[f64], i: usize) -> bool {

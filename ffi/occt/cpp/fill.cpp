@@ -9,6 +9,7 @@
 #include <GeomPlate_Surface.hxx>
 #include <Geom_BSplineCurve.hxx>
 #include <Geom_TrimmedCurve.hxx>
+#include <Standard_Failure.hxx>
 
 namespace faceformer::occt {
 namespace {
@@ -66,7 +67,11 @@ Handle(Geom_BSplineSurface) plate(const Face &face, const Topology &topology) {
 
 Handle(Geom_BSplineSurface) fill(const Face &face, const Topology &topology) {
   if (face.loops.size() == 1 && face.loops.front().coedges.size() == 4) {
-    return coons(face.loops.front(), topology);
+    try {
+      return coons(face.loops.front(), topology);
+    } catch (const Standard_Failure &) {
+      // Sides that meet in a wide tolerance only; the plate does not mind.
+    }
   }
   return plate(face, topology);
 }

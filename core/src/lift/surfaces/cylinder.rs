@@ -5,8 +5,8 @@ use glam::{DVec2, DVec3};
 use super::evidence::vertex;
 use crate::lift::Surface;
 use crate::lift::circle::circle_fit;
+use crate::lift::depths::Depths;
 use crate::lift::sheet::Sheet;
-use crate::lift::solve::Solved;
 
 /// Largest distance, relative to the drawing's size, of a boundary point from a cylinder.
 const OFF_CYLINDER: f64 = 1e-3;
@@ -16,11 +16,11 @@ const OFF_CYLINDER: f64 = 1e-3;
 const NARROW: f64 = 0.7;
 
 /// Axis, then radius and centre from the boundary seen along the axis.
-pub(super) fn cylinder(sheet: &Sheet<'_>, solved: &Solved, face: usize) -> Option<Surface> {
-    let axis = cylinder_axis(sheet, solved, face)?;
+pub(super) fn cylinder(sheet: &Sheet<'_>, depths: &Depths, face: usize) -> Option<Surface> {
+    let axis = cylinder_axis(sheet, depths, face)?;
     let u = axis.any_orthonormal_vector();
     let w = axis.cross(u);
-    let boundary = boundary_points(sheet, solved, face);
+    let boundary = boundary_points(sheet, depths, face);
     let flat: Vec<DVec2> = boundary
         .iter()
         .map(|p| DVec2::new(p.dot(u), p.dot(w)))
@@ -30,7 +30,7 @@ pub(super) fn cylinder(sheet: &Sheet<'_>, solved: &Solved, face: usize) -> Optio
     let side = DVec2::new(side.dot(u), side.dot(w));
     let through = circle_fit(flat.iter().copied());
     let by_outline = outlines(sheet, face).filter_map(|v| {
-        let p = vertex(sheet, solved, v);
+        let p = vertex(sheet, depths, v);
         touching(&flat, DVec2::new(p.dot(u), p.dot(w)), side)
     });
     let narrow = through.is_none_or(|(center, _, _)| arc_width(&flat, center) < NARROW);
@@ -56,7 +56,7 @@ pub(super) fn cylinder(sheet: &Sheet<'_>, solved: &Solved, face: usize) -> Optio
 }
 
 /// Direction of the straight edges of a cylinder, else the normal of a circle that bounds it.
-fn cylinder_axis(sheet: &Sheet<'_>, solved: &Solved, face: usize) -> Option<DVec3> {
+fn cylinder_axis(sheet: &Sheet<'_>, depths: &Depths, face: usize) -> Option<DVec3> {
     let edges = sheet.edges_of(face);
     let known = edges.iter().find_map(|&e| sheet.edge_axis[e]);
     let around = edges.iter().find_map(|&e| sheet.circles[e].map(|c| c.0));
@@ -65,7 +65,7 @@ fn cylinder_axis(sheet: &Sheet<'_>, solved: &Solved, face: usize) -> Option<DVec
     }
     let mut sum = DVec3::ZERO;
     for &e in edges.iter().filter(|&&e| sheet.is_straight(e)) {
-        let [a, b] = sheet.drawing.edges[e].v.map(|v| vertex(sheet, solved, v));
+        let [a, b] = sheet.drawing.edges[e].v.map(|v| vertex(sheet, depths, v));
         let d = b - a;
         sum += if d.dot(sum) < 0.0 { -d } else { d };
     }
@@ -73,10 +73,10 @@ fn cylinder_axis(sheet: &Sheet<'_>, solved: &Solved, face: usize) -> Option<DVec
 }
 
 /// Vertices of the boundary, and the points of its arcs that lie in known planes.
-fn boundary_points(sheet: &Sheet<'_>, solved: &Solved, face: usize) -> Vec<DVec3> {
+fn boundary_points(sheet: &Sheet<'_>, depths: &Depths, face: usize) -> Vec<DVec3> {
     let mut points: Vec<DVec3> = sheet.corners[face]
         .iter()
-        .map(|&v| vertex(sheet, solved, v))
+        .map(|&v| vertex(sheet, depths, v))
         .collect();
     for &e in sheet.edges_of(face) {
         if sheet.is_straight(e) {
@@ -84,11 +84,11 @@ fn boundary_points(sheet: &Sheet<'_>, solved: &Solved, face: usize) -> Vec<DVec3
         }
         let edge = &sheet.drawing.edges[e];
         let inner = edge.points.get(1..edge.points.len() - 1).unwrap_or(&[]);
-        let start = vertex(sheet, solved, edge.v[0]);
+        let start = vertex(sheet, depths, edge.v[0]);
         let normal = match sheet.circles[e] {
             Some((k, _)) => Some(sheet.axis(k)),
             None => sheet.neighbours(e).iter().find_map(|&f| {
-                let [a, b, _] = solved.plane(f)?;
+                let [a, b, _] = depths.plane(f)?;
                 Some(DVec3::new(a, b, 1.0))
             }),
         };

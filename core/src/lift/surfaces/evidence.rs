@@ -6,8 +6,8 @@ use super::flat::best_plane;
 use super::ring::Ring;
 use crate::drawing::{Curve2, Drawing};
 use crate::lift::Surface;
+use crate::lift::depths::Depths;
 use crate::lift::sheet::Sheet;
-use crate::lift::solve::Solved;
 
 /// Points of an edge may be this far off a circle, relative to the drawing's size.
 const OFF_RING: f64 = 2e-4;
@@ -44,15 +44,16 @@ pub(super) struct Evidence {
     pub(super) size: f64,
 }
 
-pub(super) fn vertex(sheet: &Sheet<'_>, solved: &Solved, v: usize) -> DVec3 {
-    sheet.drawing.vertices[v].extend(solved.depth(v))
+/// A vertex in space.
+pub(super) fn vertex(sheet: &Sheet<'_>, depths: &Depths, v: usize) -> DVec3 {
+    sheet.drawing.vertices[v].extend(depths.of(v))
 }
 
 impl Evidence {
     /// The evidence of the faces `part`, which are parts of one surface.
     pub(super) fn new(
         sheet: &Sheet<'_>,
-        solved: &Solved,
+        depths: &Depths,
         part: &[usize],
         known: &[Surface],
     ) -> Self {
@@ -69,8 +70,9 @@ impl Evidence {
             .collect();
         corners.sort_unstable();
         corners.dedup();
+        corners.retain(|&v| depths.known[v]);
         let mut evidence = Self {
-            vertices: corners.iter().map(|&v| vertex(sheet, solved, v)).collect(),
+            vertices: corners.iter().map(|&v| vertex(sheet, depths, v)).collect(),
             bounds: Vec::new(),
             outlines: Vec::new(),
             outline_ends: Vec::new(),
@@ -82,23 +84,25 @@ impl Evidence {
             let outside = sheet.neighbours(e).iter().find(|f| !part.contains(f));
             match outside {
                 // Between two parts: an outline.
-                None => evidence.add_outline(sheet, solved, e),
-                Some(&beside) => {
+                None => evidence.add_outline(sheet, depths, e),
+                Some(&beside) if depths.are_known(&sheet.drawing.edges[e].v) => {
                     evidence
                         .bounds
-                        .extend(bound(sheet, solved, e, known[beside]));
+                        .extend(bound(sheet, depths, e, known[beside]));
                 }
+                Some(_) => {}
             }
         }
         evidence
     }
 
-    fn add_outline(&mut self, sheet: &Sheet<'_>, solved: &Solved, edge: usize) {
+    fn add_outline(&mut self, sheet: &Sheet<'_>, depths: &Depths, edge: usize) {
         let e = &sheet.drawing.edges[edge];
         self.outlines
             .extend(thinned(&e.points).map(|i| e.points[i]));
+        let ends = e.v.into_iter().filter(|&v| depths.known[v]);
         self.outline_ends
-            .extend(e.v.map(|v| vertex(sheet, solved, v)));
+            .extend(ends.map(|v| vertex(sheet, depths, v)));
         if let Curve2::Ellipse(arc) = &e.curve {
             self.discs.push((arc.center, arc.major.length()));
         }
@@ -125,9 +129,9 @@ fn thinned(points: &[DVec2]) -> impl Iterator<Item = usize> + use<> {
 
 /// An edge in space, if its place is known: straight, a circle around an axis, on a plane, on
 /// another known surface, or drawn as an ellipse that is a circle through its lifted ends.
-fn bound(sheet: &Sheet<'_>, solved: &Solved, edge: usize, beside: Surface) -> Option<Bound> {
+fn bound(sheet: &Sheet<'_>, depths: &Depths, edge: usize, beside: Surface) -> Option<Bound> {
     let e = &sheet.drawing.edges[edge];
-    let ends = e.v.map(|v| vertex(sheet, solved, v));
+    let ends = e.v.map(|v| vertex(sheet, depths, v));
     let tolerance = OFF_RING * sheet.size;
     if sheet.is_straight(edge) {
         return Some(Bound {

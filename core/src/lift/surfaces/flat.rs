@@ -4,12 +4,12 @@ use glam::{DMat3, DVec3};
 
 use super::evidence::vertex;
 use crate::lift::Surface;
+use crate::lift::depths::Depths;
 use crate::lift::sheet::Sheet;
-use crate::lift::solve::Solved;
 
 /// The plane of a face: what its rows say, else the best one through its vertices.
-pub(super) fn plane(sheet: &Sheet<'_>, solved: &Solved, face: usize) -> Option<Surface> {
-    if let Some([a, b, c]) = solved.plane(face) {
+pub(super) fn plane(sheet: &Sheet<'_>, depths: &Depths, face: usize) -> Option<Surface> {
+    if let Some([a, b, c]) = depths.plane(face) {
         return Some(Surface::Plane {
             origin: sheet.middles[face].extend(-c),
             normal: DVec3::new(a, b, 1.0).normalize(),
@@ -17,7 +17,7 @@ pub(super) fn plane(sheet: &Sheet<'_>, solved: &Solved, face: usize) -> Option<S
     }
     let points: Vec<DVec3> = sheet.corners[face]
         .iter()
-        .map(|&v| vertex(sheet, solved, v))
+        .map(|&v| vertex(sheet, depths, v))
         .collect();
     let (origin, normal) = best_plane(&points)?;
     Some(Surface::Plane { origin, normal })

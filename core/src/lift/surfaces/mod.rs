@@ -18,8 +18,8 @@ mod sphere;
 mod wholes;
 
 use super::Surface;
+use super::depths::Depths;
 use super::sheet::Sheet;
-use super::solve::Solved;
 use crate::drawing::SurfaceKind;
 use evidence::Evidence;
 pub(super) use wholes::touching;
@@ -27,13 +27,14 @@ pub(super) use wholes::touching;
 /// Rounds in which surfaces help their neighbours; the first ones ask for a better fit.
 const ROUNDS: [f64; 4] = [2e-5, 1e-4, 1e-3, 1e-3];
 
-/// The surface of every face.
-pub(super) fn surfaces(sheet: &Sheet<'_>, solved: &Solved) -> Vec<Surface> {
+/// The surface of every face, as far as known depths tell.
+pub(super) fn surfaces(sheet: &Sheet<'_>, depths: &Depths) -> Vec<Surface> {
     let mut known: Vec<Surface> = (0..sheet.faces.len())
         .map(|face| {
             let found = match sheet.faces[face].kind {
-                SurfaceKind::Plane => flat::plane(sheet, solved, face),
-                SurfaceKind::Cylinder => cylinder::cylinder(sheet, solved, face),
+                _ if !depths.are_known(&sheet.corners[face]) => None,
+                SurfaceKind::Plane => flat::plane(sheet, depths, face),
+                SurfaceKind::Cylinder => cylinder::cylinder(sheet, depths, face),
                 _ => None,
             };
             found.unwrap_or(Surface::Unknown)
@@ -43,7 +44,7 @@ pub(super) fn surfaces(sheet: &Sheet<'_>, solved: &Solved) -> Vec<Surface> {
     for tolerance in ROUNDS {
         for whole in &wholes {
             if whole.iter().any(|&f| known[f] == Surface::Unknown) {
-                round(sheet, solved, whole, tolerance * sheet.size, &mut known);
+                round(sheet, depths, whole, tolerance * sheet.size, &mut known);
             }
         }
     }
@@ -53,7 +54,7 @@ pub(super) fn surfaces(sheet: &Sheet<'_>, solved: &Solved) -> Vec<Surface> {
 /// Tries a whole, then each of its faces that are not known yet.
 fn round(
     sheet: &Sheet<'_>,
-    solved: &Solved,
+    depths: &Depths,
     whole: &[usize],
     tolerance: f64,
     known: &mut [Surface],
@@ -64,7 +65,10 @@ fn round(
         if part.iter().any(|&f| known[f] != Surface::Unknown) {
             continue;
         }
-        let evidence = Evidence::new(sheet, solved, part, known);
+        let evidence = Evidence::new(sheet, depths, part, known);
+        if evidence.vertices.is_empty() {
+            continue;
+        }
         let candidates = match kind {
             SurfaceKind::Sphere => sphere::spheres(&evidence),
             SurfaceKind::Cone => axes::axes(&evidence)

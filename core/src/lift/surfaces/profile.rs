@@ -10,6 +10,9 @@ use crate::lift::circle::circle_fit;
 /// The cone around an axis: the best line through the profile.
 pub(super) fn cone(evidence: &Evidence, axis: &Axis) -> Option<Surface> {
     let points: Vec<DVec2> = evidence.points().map(|p| axis.profile(p).into()).collect();
+    if points.len() < 2 {
+        return None;
+    }
     let middle = points.iter().sum::<DVec2>() / points.len() as f64;
     let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
     for p in &points {

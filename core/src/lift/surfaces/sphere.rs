@@ -12,9 +12,23 @@ pub(super) fn spheres(evidence: &Evidence) -> Vec<Surface> {
     let mut found = Vec::new();
     // The outline is seen as a circle around the centre, at the centre's depth.
     let depths: Vec<f64> = evidence.outline_ends.iter().map(|p| p.z).collect();
-    for &(center, radius) in &evidence.discs {
+    for &(center, radius) in evidence.discs.iter().filter(|_| !depths.is_empty()) {
         let mean = depths.iter().sum::<f64>() / depths.len() as f64;
         found.push((center.extend(mean), radius));
+    }
+    // Without a depth there, on the axis of a circle that is drawn through the centre.
+    for &(center, radius) in &evidence.discs {
+        for (ring, _) in evidence.rings() {
+            let reach = (radius * radius - ring.radius * ring.radius)
+                .max(0.0)
+                .sqrt();
+            for side in [reach, -reach] {
+                let at = ring.center + ring.normal * side;
+                if at.truncate().distance(center) < 1e-3 * evidence.size {
+                    found.push((center.extend(at.z), radius));
+                }
+            }
+        }
     }
     found.extend(through(evidence));
     for (ring, bound) in evidence.rings() {
@@ -41,6 +55,9 @@ pub(super) fn spheres(evidence: &Evidence) -> Vec<Surface> {
 /// Least squares of `|p|^2 = 2 c.p + k`, which is linear; `None` if the points are on one circle.
 fn through(evidence: &Evidence) -> Option<(DVec3, f64)> {
     let points: Vec<DVec3> = evidence.points().collect();
+    if points.len() < 4 {
+        return None;
+    }
     let middle = points.iter().sum::<DVec3>() / points.len() as f64;
     let mut matrix = vec![vec![0.0; 4]; 4];
     let mut right = vec![0.0; 4];

@@ -105,7 +105,7 @@ fn crossings(body: &Body, chart: &Chart, walk: &[CoEdge], k: usize, value: f64) 
 }
 
 /// A value of parameter `k` at which the loops `ends` are crossed once each and no other is, such
-/// that as few edges as possible are to be split; with the crossings.
+/// that splitting costs least; with the crossings.
 fn line(
     body: &Body,
     f: usize,
@@ -127,15 +127,25 @@ fn line(
             own.extend(found);
             fits
         });
-        let splits = own
-            .iter()
-            .filter(|c| matches!(c, Crossing::Inside(..)))
-            .count();
-        if clear && best.as_ref().is_none_or(|b| splits < b.0) {
-            best = Some((splits, value, own));
+        let cost = own.iter().map(|c| cost(body, c)).sum();
+        if clear && best.as_ref().is_none_or(|b| cost < b.0) {
+            best = Some((cost, value, own));
         }
     }
     best.map(|(_, value, own)| (value, own))
+}
+
+/// What it costs to have a seam end at a crossing: splitting exact curves is better than those
+/// through points, and cutting off a short end is worst.
+fn cost(body: &Body, crossing: &Crossing) -> usize {
+    let Crossing::Inside(coedge, step, _) = *crossing else {
+        return 0;
+    };
+    let edge = &body.edges[coedge.edge()];
+    let last = edge.points(&body.vertices, STEPS).len() - 2;
+    let short = usize::from(step < 2 || step + 2 > last);
+    let exact = !matches!(edge.curve, Curve3::Points { .. });
+    if exact { 1 + short } else { 3 + 3 * short }
 }
 
 /// The vertex of a crossing; an edge is split for it if need be.

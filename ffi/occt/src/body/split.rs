@@ -6,6 +6,9 @@ use glam::DVec3;
 
 use super::{Body, BodyEdge};
 
+/// A point closer to a cut than this share of its distance from the next one is left out.
+const CROWDED: f64 = 0.3;
+
 /// Cuts an edge at a point of it, which lies on step `step` of `steps` along it or on the stretch
 /// after it, and returns the new vertex.
 pub(super) fn split(
@@ -27,10 +30,19 @@ pub(super) fn split(
             } else {
                 step * (points.len() - 1) / steps
             };
+            // Points crowded at the cut would make the curve through them wave.
+            let room = CROWDED * points[at].distance(points[at + 1]);
+            let near = |p: &DVec3| p.distance(point) < room;
             let mut head = points[..=at].to_vec();
+            if head.len() > 1 && head.last().is_some_and(near) {
+                head.pop();
+            }
             head.push(point);
-            let mut tail = vec![point];
-            tail.extend_from_slice(&points[at + 1..]);
+            let mut tail = points[at + 1..].to_vec();
+            if tail.len() > 1 && tail.first().is_some_and(near) {
+                tail.remove(0);
+            }
+            tail.insert(0, point);
             (
                 Curve3::Points { points: head },
                 Curve3::Points { points: tail },
