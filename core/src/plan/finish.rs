@@ -35,7 +35,7 @@ pub(super) fn finish(mut plan: Plan, options: &PlanOptions) -> Plan {
                 place(center);
                 *major *= scale;
             }
-            Curve3::Points { points } => points.iter_mut().for_each(place),
+            Curve3::Points { points, .. } => points.iter_mut().for_each(place),
         }
     }
     for face in &mut plan.faces {

@@ -15,6 +15,7 @@ mod conic;
 mod curves;
 mod error;
 mod finish;
+mod graze;
 mod lengths;
 mod measure;
 mod model;

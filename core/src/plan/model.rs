@@ -35,6 +35,9 @@ pub enum Curve3 {
     Points {
         /// Points in order, at least two.
         points: Vec<DVec3>,
+        /// Unit tangents at the first and the last point, along the curve, if they are known.
+        #[serde(default)]
+        tangents: Option<[DVec3; 2]>,
     },
 }
 

@@ -16,7 +16,7 @@ use super::uses::{Use, uses};
 use super::vertices::Incidence;
 use super::view::View;
 use super::{Orientation, Plan, PlanEdge, PlanError, PlanFace, PlanOptions};
-use super::{finish, sample, silhouette, touch, upright};
+use super::{finish, graze, sample, silhouette, touch, upright};
 
 /// Surfaces are snapped within this share of the drawing's size, and within ten times the lift's
 /// residual, but never more than [`SNAP_MOST`].
@@ -89,6 +89,8 @@ pub fn plan(drawing: &Drawing, faces: &[Face], lift: &Lift, options: &PlanOption
     notices.append(&mut snapped.notices);
     let incidence = Incidence::new(drawing, &uses, &snapped.of_face);
     touch::make_exact(&mut snapped.supports, &incidence.contacts(), snap_length);
+    let grazing = graze::triples(&snapped.supports, incidence.supports(), snap_length);
+    graze::make_exact(&mut snapped.supports, &grazing);
     let supports: Vec<Support> = snapped
         .of_face
         .iter()

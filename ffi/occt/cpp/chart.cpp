@@ -135,6 +135,25 @@ Chart Chart::turned(double angle) const {
   return Chart(*this, frame_.Rotated(frame_.Axis(), angle));
 }
 
+gp_Vec2d Chart::slope(const Segment &segment, double t, const gp_Pnt2d &place) const {
+  gp_Pnt point;
+  gp_Vec along;
+  segment.curve->D1(t, point, along);
+  gp_Vec by_u;
+  gp_Vec by_v;
+  surface_->D1(place.X(), place.Y(), point, by_u, by_v);
+  const double uu = by_u.Dot(by_u);
+  const double uv = by_u.Dot(by_v);
+  const double vv = by_v.Dot(by_v);
+  const double determinant = uu * vv - uv * uv;
+  if (determinant <= kOnAxis * uu * vv) {
+    return gp_Vec2d(0.0, 0.0);
+  }
+  const double u = along.Dot(by_u);
+  const double v = along.Dot(by_v);
+  return gp_Vec2d((u * vv - v * uv) / determinant, (v * uu - u * uv) / determinant);
+}
+
 Handle(Geom2d_Curve) Chart::exact(const Segment &segment, const std::vector<gp_Pnt2d> &places,
                                   const gp_Pnt2d &start) const {
   const double length = segment.last - segment.first;
@@ -178,6 +197,12 @@ Handle(Geom2d_Curve) Chart::curve(const Segment &segment, const gp_Pnt2d &start,
       parameters->SetValue(i + 1, parameter(i));
     }
     Geom2dAPI_Interpolate interpolate(points, parameters, Standard_False, 1e-12);
+    // With its true slopes at the ends, where it may touch another edge.
+    const gp_Vec2d first = slope(segment, segment.first, places.front());
+    const gp_Vec2d last = slope(segment, segment.last, places.back());
+    if (first.Magnitude() > Precision::Confusion() && last.Magnitude() > Precision::Confusion()) {
+      interpolate.Load(first, last, Standard_False);
+    }
     interpolate.Perform();
     if (!interpolate.IsDone()) {
       throw std::domain_error("an edge has no image on its surface");

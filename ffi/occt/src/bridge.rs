@@ -44,6 +44,8 @@ pub(crate) mod ffi {
         ratio: f64,
         /// Points of a spline, both ends included.
         points: Vec<Point>,
+        /// Unit tangents at its ends; none if they are not known.
+        tangents: Vec<Point>,
     }
 
     /// Kind of a face's surface.

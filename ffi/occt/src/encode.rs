@@ -101,6 +101,7 @@ fn encode_edge(body: &Body, edge: &BodyEdge, factor: f64) -> Result<ffi::Edge, O
         major: zero,
         ratio: 1.0,
         points: Vec::new(),
+        tangents: Vec::new(),
     };
     let ellipse = |center: DVec3, normal: DVec3, major: DVec3, ratio: f64| {
         let finite = center.is_finite() && normal.is_finite() && major.is_finite();
@@ -153,9 +154,11 @@ fn encode_edge(body: &Body, edge: &BodyEdge, factor: f64) -> Result<ffi::Edge, O
             (out.center, out.normal, out.major, out.ratio) =
                 ellipse(*center, *normal, *major, *ratio)?;
         }
-        Curve3::Points { points } => {
+        Curve3::Points { points, tangents } => {
             out.kind = ffi::CurveKind::Spline;
             out.points = points.iter().map(|&p| point(p * factor)).collect();
+            let known = tangents.filter(|t| t.iter().all(|t| t.is_finite()));
+            out.tangents = known.into_iter().flatten().map(point).collect();
         }
     }
     Ok(out)
@@ -301,7 +304,7 @@ fn size(plan: &Plan) -> f64 {
                     add(*center * 2.0 - p);
                 }
             }
-            Curve3::Points { points } => points.iter().for_each(|&p| add(p)),
+            Curve3::Points { points, .. } => points.iter().for_each(|&p| add(p)),
             _ => {}
         }
     }

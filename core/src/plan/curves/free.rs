@@ -68,5 +68,8 @@ pub(super) fn free(
     let count = points.len();
     points[0] = start;
     points[count - 1] = end;
-    Ok(Curve3::Points { points })
+    Ok(Curve3::Points {
+        points,
+        tangents: None,
+    })
 }

@@ -21,6 +21,9 @@ use drawn::Drawn;
 /// beyond it the surfaces are wrong.
 const DRAWN_GAP: f64 = 0.02;
 
+/// Surfaces that meet at a smaller angle (its sine) do not tell the tangent of their curve.
+const SLANT: f64 = 0.02;
+
 /// What is known of an edge when its curve is sought.
 pub(super) struct Place<'a> {
     /// Edge, from 0.
@@ -51,7 +54,10 @@ pub(super) fn curve(place: &Place<'_>, view: &View, lengths: Lengths) -> Result<
     let drawn = Drawn::new(place.drawn, view);
     if place.silhouette && !place.drawn.is_straight() {
         let points = trace::trace(&drawn, view, &place.supports[..1], place.ends);
-        return Ok(Curve3::Points { points });
+        return Ok(Curve3::Points {
+            points,
+            tangents: None,
+        });
     }
     if place.drawn.is_straight() {
         return straight(place, lengths);
@@ -147,7 +153,10 @@ fn on_plane(
         }
     }
     let points = trace::trace(drawn, view, &[plane], place.ends);
-    Ok(Curve3::Points { points })
+    Ok(Curve3::Points {
+        points,
+        tangents: None,
+    })
 }
 
 /// A curve given by points: a circle or ellipse if they lie on one.
@@ -193,5 +202,22 @@ fn through(
             gap,
         });
     }
-    Ok(Curve3::Points { points })
+    Ok(Curve3::Points {
+        tangents: tangents(&points, &place.supports),
+        points,
+    })
+}
+
+/// Tangents at both ends of a curve in which two surfaces meet; `None` where they touch.
+fn tangents(points: &[DVec3], supports: &[Support; 2]) -> Option<[DVec3; 2]> {
+    let tangent = |at: DVec3, along: DVec3| {
+        let across = supports[0].gradient(at).cross(supports[1].gradient(at));
+        let unit = across.normalize_or_zero();
+        let forwards = unit.dot(along.normalize_or_zero());
+        (across.length() > SLANT && forwards.abs() > 0.8).then(|| unit * forwards.signum())
+    };
+    match points {
+        [a, b, .., c, d] => Some([tangent(*a, *b - *a)?, tangent(*d, *d - *c)?]),
+        _ => None,
+    }
 }

@@ -12,7 +12,10 @@ pub(super) fn reversed(curve: &Curve3) -> Curve3 {
     match &mut curve {
         Curve3::Line => {}
         Curve3::Circle { normal, .. } | Curve3::Ellipse { normal, .. } => *normal = -*normal,
-        Curve3::Points { points } => points.reverse(),
+        Curve3::Points { points, tangents } => {
+            points.reverse();
+            *tangents = tangents.map(|[a, b]| [-b, -a]);
+        }
     }
     curve
 }
@@ -83,9 +86,21 @@ pub(super) fn joined(
                 major,
                 ratio,
             })?,
-        (Curve3::Points { mut points }, Curve3::Points { points: more }) => {
+        (
+            Curve3::Points {
+                mut points,
+                tangents,
+            },
+            Curve3::Points {
+                points: more,
+                tangents: ends,
+            },
+        ) => {
             points.extend(more.into_iter().skip(1));
-            Curve3::Points { points }
+            Curve3::Points {
+                points,
+                tangents: tangents.zip(ends).map(|(first, last)| [first[0], last[1]]),
+            }
         }
         _ => return None,
     };

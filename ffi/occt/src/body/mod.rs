@@ -99,7 +99,7 @@ fn check(plan: &Plan) -> Result<(), OcctError> {
             let what = format!("edge {} names a vertex that is not there", e + 1);
             return Err(OcctError::Plan(what));
         }
-        if let Curve3::Points { points } = &edge.curve
+        if let Curve3::Points { points, .. } = &edge.curve
             && (points.len() < 2 || points.iter().any(|p| !p.is_finite()))
         {
             let what = format!("edge {} needs two finite points or more", e + 1);

@@ -23,13 +23,14 @@ pub(super) fn split(
     let second = body.edges.len();
     let old = body.edges[edge].clone();
     let (before, after) = match old.curve {
-        Curve3::Points { points } => {
+        Curve3::Points { points, tangents } => {
             // A polyline's steps are its points.
             let at = if points.len() == steps + 1 {
                 step
             } else {
                 step * (points.len() - 1) / steps
             };
+            let middle = (points[at + 1] - points[at]).normalize_or_zero();
             // Points crowded at the cut would make the curve through them wave.
             let room = CROWDED * points[at].distance(points[at + 1]);
             let near = |p: &DVec3| p.distance(point) < room;
@@ -44,8 +45,14 @@ pub(super) fn split(
             }
             tail.insert(0, point);
             (
-                Curve3::Points { points: head },
-                Curve3::Points { points: tail },
+                Curve3::Points {
+                    tangents: tangents.map(|t| [t[0], middle]),
+                    points: head,
+                },
+                Curve3::Points {
+                    tangents: tangents.map(|t| [middle, t[1]]),
+                    points: tail,
+                },
             )
         }
         curve => (curve.clone(), curve),
