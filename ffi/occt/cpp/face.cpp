@@ -26,8 +26,9 @@ namespace {
 
 constexpr double kTurn = 2.0 * M_PI;
 
-// Points of an edge at which its distance from a surface is measured; BRepCheck looks at 23.
-constexpr int kProbes = 46;
+// Steps along an edge at which its distance from a surface is measured: those of BRepCheck, which
+// looks at 23 points, and between.
+constexpr int kProbes = 5 * 22;
 
 // Curves in a parameter plane are this precise, in inner units.
 constexpr double kChartPrecision = 1e-7;
