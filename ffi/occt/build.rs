@@ -21,16 +21,18 @@ const TOOLKITS: [&str; 10] = [
 ];
 
 /// C++ files of the bridge, without folder and suffix.
-const SOURCES: [&str; 10] = [
+const SOURCES: [&str; 12] = [
     "build",
     "chart",
     "check",
     "curve",
+    "face",
+    "fill",
     "guard",
     "properties",
     "quiet",
     "topology",
-    "unify",
+    "unroll",
     "write",
 ];
 

@@ -25,7 +25,11 @@ pub(crate) fn owners(mesh: &Mesh, plan: &Plan, outlines: &[Vec<Vec<DVec2>>]) -> 
                     .get(*f)
                     .is_some_and(|rings| polygon::contains(rings, center))
             };
-            let candidates = || faces().filter(|face| fits(&face)).map(|(f, _)| f);
+            let known = || faces().filter(|face| fits(&face)).map(|(f, _)| f);
+            // A filled surface is not known here, and takes what no other has.
+            let filled = faces().filter(|f| f.1.surface == Surface3::Filled);
+            let filled: Vec<usize> = filled.map(|(f, _)| f).collect();
+            let candidates = || known().chain(filled.iter().copied());
             candidates().find(inside).or_else(|| candidates().next())
         })
         .collect()
@@ -59,31 +63,21 @@ pub(crate) fn same_surface(a: &Surface3, b: &Surface3, tolerance: f64) -> bool {
                 && (radius - r).abs() < tolerance
                 && (*other - *origin).reject_from_normalized(*axis).length() < tolerance
         }
-        _ => false,
+        _ => a == b,
     }
 }
 
 fn on_surface(surface: &Surface3, corners: [DVec3; 3], facing: DVec3, tolerance: f64) -> bool {
-    match *surface {
-        Surface3::Plane { origin, normal } => {
-            facing.dot(normal) > 0.99
-                && corners
-                    .iter()
-                    .all(|p| (*p - origin).dot(normal).abs() < tolerance)
-        }
-        Surface3::Cylinder {
-            origin,
-            axis,
-            radius,
-            ..
-        } => {
-            let out = |p: DVec3| (p - origin).reject_from_normalized(axis);
-            facing.dot(axis).abs() < 0.1
-                && corners
-                    .iter()
-                    .all(|p| (out(*p).length() - radius).abs() < tolerance)
-        }
-    }
+    let middle = (corners[0] + corners[1] + corners[2]) / 3.0;
+    let straight = if matches!(surface, Surface3::Plane { .. }) {
+        0.99
+    } else {
+        0.9
+    };
+    facing.dot(surface.normal(middle)) > straight
+        && corners
+            .iter()
+            .all(|p| surface.distance(*p).abs() < tolerance)
 }
 
 #[cfg(test)]

@@ -3,21 +3,25 @@
 //! 1. [`directions`] reads dominant directions off the drawing,
 //! 2. the rows of the depth problem are linear in the depths and the planes of faces ([`system`]),
 //! 3. they are solved as least squares if they agree, in the L1 norm if not,
-//! 4. every plane and cylinder gets its surface.
+//! 4. every plane, cylinder, cone, sphere and torus gets its surface.
 
 mod assumed;
 mod camera;
 mod circle;
+mod completion;
 mod conflicts;
 pub mod directions;
 mod error;
 mod gauge;
+mod heights;
 mod metric;
 mod model;
 mod pieces;
 mod posture;
 mod revolved;
+mod ring_torus;
 mod rows;
+mod shape;
 mod sheet;
 mod solve;
 mod split;
@@ -31,7 +35,7 @@ mod tests;
 mod tests_central;
 
 pub use camera::Camera;
-pub(crate) use circle::circle_through;
+pub(crate) use circle::{circle_fit, circle_through};
 pub use error::LiftError;
 pub use metric::depth_error;
 pub use model::{Conflict, Lift, LiftMethod, LiftOptions, Surface};
@@ -45,7 +49,7 @@ use posture::{Posture, explained};
 use sheet::Sheet;
 use solve::Solved;
 
-/// Recovers the depth of every vertex and the surface of every planar and cylindrical face.
+/// Recovers the depth of every vertex and the surface of every face whose kind is known.
 ///
 /// An orthographic drawing has two readings that are mirror images in depth (Necker reversal). The
 /// default is the model seen from above: of the dominant directions, the one that is most vertical
@@ -193,8 +197,9 @@ fn finish(sheet: &Sheet<'_>, solved: &Solved) -> Lift {
         0.0
     };
     let depths: Vec<f64> = (0..count).map(|v| depth(v) - mean).collect();
-    let surfaces: Vec<Surface> = (0..sheet.faces.len())
-        .map(|f| surfaces::surface(sheet, solved, f).lowered(mean))
+    let surfaces: Vec<Surface> = surfaces::surfaces(sheet, &solved.heights(sheet))
+        .into_iter()
+        .map(|surface| surface.lowered(mean))
         .collect();
     Lift {
         conflicts: conflicts::conflicts(sheet, &depths, &surfaces),

@@ -35,6 +35,33 @@ pub enum Surface {
         /// Radius.
         radius: f64,
     },
+    /// One nappe of a circular cone.
+    Cone {
+        /// The apex.
+        apex: DVec3,
+        /// Unit direction of the axis, from the apex into the cone.
+        axis: DVec3,
+        /// Angle between axis and surface, radians, between 0 and a right angle.
+        angle: f64,
+    },
+    /// Sphere.
+    Sphere {
+        /// Centre.
+        center: DVec3,
+        /// Radius.
+        radius: f64,
+    },
+    /// Torus.
+    Torus {
+        /// Centre.
+        center: DVec3,
+        /// Unit direction of the axis.
+        axis: DVec3,
+        /// Radius of the spine, the circle that the tube follows.
+        major: f64,
+        /// Radius of the tube.
+        minor: f64,
+    },
     /// A surface that lifting does not know; its vertices still have depth.
     Unknown,
 }
@@ -42,23 +69,7 @@ pub enum Surface {
 impl Surface {
     /// The surface moved away from the viewer by `depth`.
     pub(super) fn lowered(self, depth: f64) -> Self {
-        let down = DVec3::new(0.0, 0.0, depth);
-        match self {
-            Self::Plane { origin, normal } => Self::Plane {
-                origin: origin - down,
-                normal,
-            },
-            Self::Cylinder {
-                origin,
-                axis,
-                radius,
-            } => Self::Cylinder {
-                origin: origin - down,
-                axis,
-                radius,
-            },
-            Self::Unknown => Self::Unknown,
-        }
+        self.with_origin(self.origin() - DVec3::new(0.0, 0.0, depth))
     }
 }
 

@@ -26,7 +26,7 @@ pub(super) struct Posture {
 }
 
 impl Posture {
-    /// The posture of a lifted reading. Depths and directions reversed together have the same.
+    /// The posture of a lifted reading. Heights and directions reversed together have the same.
     pub(super) fn of(sheet: &Sheet<'_>, height: impl Fn(usize) -> f64) -> Self {
         let axes = sheet.directions.axes.iter().map(|a| a.direction);
         let Some(up) = axes.max_by(|a, b| steepness(*a).total_cmp(&steepness(*b))) else {

@@ -10,6 +10,7 @@ use super::circle::{DrawnCircle, circle_through};
 use super::directions::AGREE;
 use super::rows::{Tag, Unknowns};
 use super::sheet::Sheet;
+use super::surfaces::touching;
 use super::system::System;
 use crate::drawing::{Curve2, SurfaceKind};
 
@@ -23,35 +24,9 @@ struct Center {
     error: f64,
 }
 
-/// Faces of one surface: an outline splits it, so that each part may miss what fixes it.
-fn wholes(sheet: &Sheet<'_>) -> Vec<Vec<usize>> {
-    let mut part_of: Vec<usize> = (0..sheet.faces.len()).collect();
-    fn root(part_of: &[usize], mut f: usize) -> usize {
-        while part_of[f] != f {
-            f = part_of[f];
-        }
-        f
-    }
-    for edge in 0..sheet.drawing.edges.len() {
-        if let [a, b] = *sheet.neighbours(edge)
-            && sheet.faces[a].kind == sheet.faces[b].kind
-            && !sheet.is_planar(a)
-        {
-            let (a, b) = (root(&part_of, a), root(&part_of, b));
-            part_of[a.max(b)] = a.min(b);
-        }
-    }
-    let mut wholes: Vec<Vec<usize>> = vec![Vec::new(); sheet.faces.len()];
-    for f in (0..sheet.faces.len()).filter(|&f| !sheet.is_planar(f)) {
-        wholes[root(&part_of, f)].push(f);
-    }
-    wholes.retain(|w| !w.is_empty());
-    wholes
-}
-
 /// Centres, tips and rings of vertices of one surface of revolution lie on its axis.
 pub(super) fn on_one_axis(sheet: &Sheet<'_>, _: &Unknowns, system: &mut System<Tag>) {
-    for whole in wholes(sheet) {
+    for whole in touching(sheet) {
         let mut edges: Vec<usize> = whole
             .iter()
             .flat_map(|&f| sheet.edges_of(f))
@@ -70,6 +45,7 @@ pub(super) fn on_one_axis(sheet: &Sheet<'_>, _: &Unknowns, system: &mut System<T
             link(sheet, &centers, k, whole[0], system);
         }
         bends(sheet, &edges, whole[0], system);
+        half_bends(sheet, &edges, whole[0], system);
     }
 }
 
@@ -248,6 +224,43 @@ fn bends(sheet: &Sheet<'_>, edges: &[usize], face: usize, system: &mut System<Ta
                 from.depth
                     .relate(&to.depth, row, (2.0 * error).recip(), tag, system);
             }
+        }
+    }
+}
+
+/// A pipe's bend by half a turn: its ends, equal circles beside each other around one direction,
+/// lie in one plane.
+fn half_bends(sheet: &Sheet<'_>, edges: &[usize], face: usize, system: &mut System<Tag>) {
+    if sheet.faces[face].kind != SurfaceKind::Torus {
+        return;
+    }
+    for (k, axis) in sheet.directions.axes.iter().enumerate() {
+        let rings: Vec<(usize, DrawnCircle)> = edges
+            .iter()
+            .filter_map(|&e| {
+                let (axis, circle) = sheet.circles[e]?;
+                (axis == k).then_some((sheet.drawing.edges[e].v[0], circle))
+            })
+            .collect();
+        let Some(&(first, own)) = rings.first() else {
+            continue;
+        };
+        let n = axis.direction;
+        for &(v, circle) in &rings[1..] {
+            let apart = circle.center - own.center;
+            let drawn = sheet.camera().drawn(n, own.center.midpoint(circle.center));
+            let aside = apart.perp_dot(drawn.normalize_or_zero()).abs();
+            if (circle.radius - own.radius).abs() > 1e-3 * own.radius || aside < 0.1 * own.radius {
+                continue;
+            }
+            let (from, to) = (
+                center_of(sheet, first, k, &own),
+                center_of(sheet, v, k, &circle),
+            );
+            let row = sheet.camera().across(n, own.center, circle.center);
+            let weight = (from.error + to.error).recip();
+            let tag = Tag::Revolved { face };
+            from.depth.relate(&to.depth, row, weight, tag, system);
         }
     }
 }

@@ -2,7 +2,9 @@
 //! then exactly once more over the rows that agree.
 
 use super::assumed::LEVELS;
+use super::completion;
 use super::gauge;
+use super::heights::Heights;
 use super::rows::{self, Tag, Unknowns};
 use super::sheet::Sheet;
 use super::system::{NullSpace, System};
@@ -16,6 +18,9 @@ const WEIGHINGS: usize = 3;
 
 /// Rounds of dropping and taking back rows.
 const ROUNDS: usize = 4;
+
+/// Rounds of tying loose parts by surfaces.
+const COMPLETIONS: usize = 4;
 
 /// A solved reading.
 pub(super) struct Solved {
@@ -32,6 +37,15 @@ impl Solved {
     /// Number of rows that were dropped.
     pub(super) fn dropped(&self) -> usize {
         self.active.iter().filter(|a| !**a).count()
+    }
+
+    /// All heights, taken as known.
+    pub(super) fn heights(&self, sheet: &Sheet<'_>) -> Heights {
+        Heights {
+            vertices: self.unknowns.vertices().map(|v| self.height(v)).collect(),
+            planes: (0..sheet.faces.len()).map(|f| self.plane(f)).collect(),
+            known: vec![true; self.unknowns.vertices().len()],
+        }
     }
 
     pub(super) fn height(&self, vertex: usize) -> f64 {
@@ -107,6 +121,7 @@ pub(super) fn solve_open(sheet: &Sheet<'_>) -> Result<Solved, LiftError> {
             null_space = system.null_space()?;
         }
     }
+    complete(sheet, &unknowns, &mut system, &mut null_space)?;
     let base: Vec<f64> = system.rows().iter().map(|r| r.weight).collect();
     let mut active = vec![true; system.rows().len()];
     let mut x = settle(&mut system, &unknowns, &base, &active)?;
@@ -139,6 +154,55 @@ pub(super) fn solve_open(sheet: &Sheet<'_>) -> Result<Solved, LiftError> {
         active,
         method,
     })
+}
+
+/// Ties what is loose to the main part by surfaces that the main part's depths fix; in a parallel
+/// projection, where a loose part only shifts.
+fn complete(
+    sheet: &Sheet<'_>,
+    unknowns: &Unknowns,
+    system: &mut System<Tag>,
+    null_space: &mut NullSpace,
+) -> Result<(), LiftError> {
+    if !sheet.camera().is_parallel() {
+        return Ok(());
+    }
+    for _ in 0..COMPLETIONS {
+        let groups = groups(unknowns, null_space);
+        if groups.len() < 2 {
+            break;
+        }
+        let x = system.minimise(&vec![true; system.rows().len()])?;
+        let main = groups[0][0];
+        let plane = |f: usize| {
+            let p = unknowns.plane(f)?;
+            let open = |terms: &[(usize, f64)]| null_space.leaves_open(terms);
+            let fixed =
+                !open(&[(p, 1.0)]) && !open(&[(p + 1, 1.0)]) && !open(&[(p + 2, 1.0), (main, 1.0)]);
+            fixed.then(|| [x[p], x[p + 1], x[p + 2]])
+        };
+        let mut known = vec![false; unknowns.vertices().len()];
+        groups[0].iter().for_each(|&v| known[v] = true);
+        let heights = Heights {
+            vertices: x[..known.len()].to_vec(),
+            planes: (0..sheet.faces.len()).map(plane).collect(),
+            known,
+        };
+        let ties = completion::ties(sheet, &heights, &groups[1..]);
+        if ties.is_empty() {
+            break;
+        }
+        for tie in ties {
+            system.push(
+                [(tie.vertex, 1.0), (main, -1.0)],
+                tie.depth - x[main],
+                tie.error.recip(),
+                Tag::Revolved { face: tie.face },
+            );
+        }
+        *null_space = system.null_space()?;
+    }
+    Ok(())
 }
 
 /// Least squares, with the rows of planes weighed by the slopes that come out.
@@ -187,12 +251,8 @@ fn agreeing(system: &System<Tag>, x: &[f64]) -> Vec<bool> {
         .collect()
 }
 
-/// Vertices whose depth is not tied to that of most others.
-fn loose(sheet: &Sheet<'_>, unknowns: &Unknowns, null_space: &NullSpace) -> Vec<usize> {
-    if !sheet.camera().is_parallel() {
-        let vertices = unknowns.vertices();
-        return vertices.filter(|&v| null_space.is_free(v)).collect();
-    }
+/// Vertices in groups whose depths are tied, the largest group first.
+fn groups(unknowns: &Unknowns, null_space: &NullSpace) -> Vec<Vec<usize>> {
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for v in unknowns.vertices() {
         match groups.iter_mut().find(|g| null_space.are_tied(g[0], v)) {
@@ -200,11 +260,21 @@ fn loose(sheet: &Sheet<'_>, unknowns: &Unknowns, null_space: &NullSpace) -> Vec<
             None => groups.push(vec![v]),
         }
     }
-    let Some(main) = (0..groups.len()).max_by_key(|&g| groups[g].len()) else {
-        return Vec::new();
-    };
-    groups.swap_remove(main);
-    let mut loose: Vec<usize> = groups.into_iter().flatten().collect();
+    groups.sort_by_key(|g| std::cmp::Reverse(g.len()));
+    groups
+}
+
+/// Vertices whose depth is not tied to that of most others, sorted.
+fn loose(sheet: &Sheet<'_>, unknowns: &Unknowns, null_space: &NullSpace) -> Vec<usize> {
+    if !sheet.camera().is_parallel() {
+        let vertices = unknowns.vertices();
+        return vertices.filter(|&v| null_space.is_free(v)).collect();
+    }
+    let mut loose: Vec<usize> = groups(unknowns, null_space)
+        .into_iter()
+        .skip(1)
+        .flatten()
+        .collect();
     loose.sort_unstable();
     loose
 }

@@ -1,71 +1,112 @@
-//! Loops in the parameter plane of their surface: area, turns, and what they add to the volume.
+//! What a loop adds to the volume: the flux through the part of a surface that it bounds.
+//!
+//! A face of a drawing is seen from the front or from behind all over, since outlines are drawn
+//! and split it. So a face on a sphere lies in the near or in the far half, and one on a torus on
+//! one side of the tube, and flux is counted from a point or line in the middle of that half.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
 
 use super::support::Support;
 
-/// A loop, measured on its surface; left is counter-clockwise seen against the gradient.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Measure {
-    /// Signed area, positive if the inside is on the left; of a loop that runs around a cylinder,
-    /// the area between it and the height 0.
-    pub(super) area: f64,
-    /// How often the loop runs around a cylinder, with its sign.
-    pub(super) turns: i32,
-    /// A third of the flux of the position vector through that area, along the gradient: a face's
-    /// share of the volume (divergence theorem).
-    pub(super) volume: f64,
+/// How a face is seen.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Sight {
+    /// Unit direction from the face to the viewer.
+    pub(super) toward: DVec3,
+    /// Whether the gradient of its surface points to the viewer.
+    pub(super) front: bool,
 }
 
-/// Measures a closed polyline, whose last point is not its first again.
-pub(super) fn measure(support: &Support, points: &[DVec3]) -> Measure {
+/// A third of the flux of the position vector, along the gradient, through the area to the left of
+/// a closed polyline seen against the gradient: a face's share of the volume (divergence theorem).
+/// The polyline's last point is not its first again.
+pub(super) fn volume(support: &Support, points: &[DVec3], sight: Sight) -> f64 {
+    // Green's theorem: the integral of f(u, v) over the area is the one of -F(u, v) du, F_v = f.
+    let around = |axis: DVec3, origin: DVec3, part: &dyn Fn(DVec3, DVec3) -> f64| {
+        let (x, y) = axis.any_orthonormal_pair();
+        // Right-handed: x, y, axis.
+        let y = if x.cross(y).dot(axis) < 0.0 { -y } else { y };
+        let angle = |p: DVec3| y.dot(p - origin).atan2(x.dot(p - origin));
+        let mut flux = 0.0;
+        for (p, q) in sides(points) {
+            let u = angle(p);
+            let du = (angle(q) - u + PI).rem_euclid(TAU) - PI;
+            let (sin, cos) = (u + du / 2.0).sin_cos();
+            flux -= part(p.midpoint(q) - origin, x * cos + y * sin) * du;
+        }
+        flux / 3.0
+    };
     match *support {
         Support::Plane { origin, normal } => {
-            let mut area = 0.0;
-            for (p, q) in sides(points) {
-                area += 0.5 * normal.dot((p - origin).cross(q - origin));
-            }
-            Measure {
-                area,
-                turns: 0,
-                volume: normal.dot(origin) * area / 3.0,
-            }
+            let area: f64 = sides(points)
+                .map(|(p, q)| 0.5 * normal.dot((p - origin).cross(q - origin)))
+                .sum();
+            normal.dot(origin) * area / 3.0
         }
         Support::Cylinder {
             origin,
             axis,
             radius,
-        } => {
-            let (x, y) = axis.any_orthonormal_pair();
-            // Right-handed: x, y, axis.
-            let y = if x.cross(y).dot(axis) < 0.0 { -y } else { y };
-            let place = |p: DVec3| {
-                let d = p - origin;
-                (y.dot(d).atan2(x.dot(d)), axis.dot(d))
+        } => around(axis, origin, &|d, out| {
+            axis.dot(d) * radius * (origin.dot(out) + radius)
+        }),
+        Support::Cone { apex, axis, angle } => {
+            let (sin, cos) = angle.sin_cos();
+            around(axis, apex, &|d, out| {
+                let along = axis.dot(d) / cos;
+                0.5 * along * along * sin * apex.dot(out * cos - axis * sin)
+            })
+        }
+        Support::Sphere { center, radius } => {
+            let up = sight.toward;
+            around(up, center, &|d, out| {
+                // From the pole to the polar angle t.
+                let flux = |t: f64| {
+                    center.dot(out) * (t / 2.0 - (2.0 * t).sin() / 4.0)
+                        + center.dot(up) * t.sin().powi(2) / 2.0
+                        + radius * (1.0 - t.cos())
+                };
+                let t = d.dot(out).atan2(d.dot(up));
+                let from = if sight.front { 0.0 } else { flux(PI) };
+                (from - flux(t)) * radius * radius
+            })
+        }
+        Support::Torus {
+            center,
+            axis,
+            major,
+            minor,
+        } => around(axis, center, &|d, out| {
+            let (a, b) = (center.dot(out) + major, center.dot(axis));
+            let flux = |v: f64| {
+                let (sin, cos) = v.sin_cos();
+                a * major * sin + a * minor * (v + sin * cos) / 2.0
+                    - b * major * cos
+                    - b * minor * cos * cos / 2.0
+                    + minor * (major * v + minor * sin)
             };
-            let (mut area, mut flux, mut turned) = (0.0, 0.0, 0.0);
-            for (p, q) in sides(points) {
-                let ((u, v), (u_next, v_next)) = (place(p), place(q));
-                let du = (u_next - u + TAU / 2.0).rem_euclid(TAU) - TAU / 2.0;
-                let (v, u) = ((v + v_next) / 2.0, u + du / 2.0);
-                let outwards = x * u.cos() + y * u.sin();
-                // Green's theorem: the integral of f(u) over the area is the one of -v f(u) du.
-                area -= v * radius * du;
-                flux -= v * radius * du * (origin.dot(outwards) + radius);
-                turned += du;
-            }
-            Measure {
-                area,
-                turns: (turned / TAU).round() as i32,
-                volume: flux / 3.0,
-            }
+            let seen = if sight.front {
+                sight.toward
+            } else {
+                -sight.toward
+            };
+            let middle = seen.dot(axis).atan2(seen.dot(out));
+            let v = d.dot(axis).atan2(d.dot(out) - major);
+            let v = middle + (v - middle + PI).rem_euclid(TAU) - PI;
+            minor * (flux(v) - flux(middle))
+        }),
+        Support::Unknown => {
+            // Roughly: triangles from the middle.
+            let middle = points.iter().sum::<DVec3>() / points.len().max(1) as f64;
+            let part = |(p, q): (DVec3, DVec3)| middle.dot(p.cross(q)) / 6.0;
+            sides(points).map(part).sum()
         }
     }
 }
 
-fn sides(points: &[DVec3]) -> impl Iterator<Item = (DVec3, DVec3)> {
+pub(super) fn sides(points: &[DVec3]) -> impl Iterator<Item = (DVec3, DVec3)> + '_ {
     let next = points.iter().skip(1).chain(points.first());
     points.iter().copied().zip(next.copied())
 }
@@ -74,56 +115,78 @@ fn sides(points: &[DVec3]) -> impl Iterator<Item = (DVec3, DVec3)> {
 mod tests {
     use super::*;
 
+    /// Volume of a region on a surface, given by its boundary as a function of a full turn.
+    fn of(support: &Support, at: impl Fn(f64) -> DVec3, toward: DVec3, front: bool) -> f64 {
+        let n = 2000;
+        let points: Vec<DVec3> = (0..n).map(|i| at(TAU * i as f64 / n as f64)).collect();
+        volume(support, &points, Sight { toward, front })
+    }
+
     #[test]
-    fn square_has_its_area_and_pyramid() {
+    fn square_has_its_pyramid() {
         let plane = Support::Plane {
             origin: DVec3::new(0.0, 0.0, 3.0),
             normal: DVec3::Z,
         };
         let corners = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]];
-        let mut points: Vec<DVec3> = corners
+        let points: Vec<DVec3> = corners
             .iter()
             .map(|c| DVec3::new(c[0], c[1], 3.0))
             .collect();
-        let m = measure(&plane, &points);
-        assert_eq!((m.area, m.turns, m.volume), (4.0, 0, 4.0));
-        points.reverse();
-        assert_eq!(measure(&plane, &points).area, -4.0);
+        let sight = Sight {
+            toward: DVec3::Z,
+            front: true,
+        };
+        assert_eq!(volume(&plane, &points, sight), 4.0);
     }
 
     #[test]
-    fn half_a_tube_has_its_area_and_volume() {
-        let tube = Support::Cylinder {
-            origin: DVec3::ZERO,
+    fn halves_of_a_sphere_make_it_whole() {
+        let center = DVec3::new(0.3, -0.2, 0.5);
+        let sphere = Support::Sphere {
+            center,
+            radius: 0.7,
+        };
+        let toward = DVec3::new(0.2, 0.3, 0.8).normalize();
+        let (u, v) = toward.any_orthonormal_pair();
+        let v = if u.cross(v).dot(toward) < 0.0 { -v } else { v };
+        let outline = |t: f64| center + (u * t.cos() + v * t.sin()) * 0.7;
+        let near = of(&sphere, outline, toward, true);
+        let far = of(&sphere, |t| outline(-t), toward, false);
+        let whole = 4.0 / 3.0 * PI * 0.7f64.powi(3);
+        assert!((near + far - whole).abs() < 1e-4, "{near} {far} {whole}");
+    }
+
+    #[test]
+    fn halves_of_a_ring_make_it_whole() {
+        let center = DVec3::new(0.3, -0.2, 0.5);
+        let torus = Support::Torus {
+            center,
             axis: DVec3::Z,
-            radius: 0.5,
+            major: 1.0,
+            minor: 0.25,
         };
-        let n = 400;
-        let arc = |i: usize, z: f64| {
-            let (sin, cos) = (TAU / 2.0 * i as f64 / n as f64).sin_cos();
-            DVec3::new(0.5 * cos, 0.5 * sin, z)
-        };
-        let mut points: Vec<DVec3> = (0..=n).map(|i| arc(i, 0.0)).collect();
-        points.extend((0..=n).rev().map(|i| arc(i, 2.0)));
-        let m = measure(&tube, &points);
-        assert_eq!(m.turns, 0);
-        assert!((m.area - TAU / 2.0).abs() < 1e-9);
-        assert!((m.volume - TAU / 2.0 * 0.5 / 3.0).abs() < 1e-9);
+        let at =
+            |t: f64, side: f64| center + DVec3::new(t.cos(), t.sin(), 0.0) * (1.0 + side * 0.25);
+        let mut total = 0.0;
+        for (side, way) in [(1.0, 1.0), (-1.0, -1.0)] {
+            total += of(&torus, |t| at(way * t, side), DVec3::Z, true);
+            total += of(&torus, |t| at(-way * t, side), DVec3::Z, false);
+        }
+        let whole = 2.0 * PI * PI * 0.25f64.powi(2);
+        assert!((total - whole).abs() < 1e-4, "{total} {whole}");
     }
 
     #[test]
-    fn circle_runs_around_its_cylinder_once() {
-        let tube = Support::Cylinder {
-            origin: DVec3::X,
-            axis: DVec3::Y,
-            radius: 1.0,
+    fn cone_has_a_third_of_its_box() {
+        let cone = Support::Cone {
+            apex: DVec3::new(0.0, 0.0, 2.0),
+            axis: -DVec3::Z,
+            angle: 0.5f64.atan(),
         };
-        let ring: Vec<DVec3> = (0..30)
-            .map(|i| {
-                let (sin, cos) = (TAU * f64::from(i) / 30.0).sin_cos();
-                DVec3::new(1.0 + sin, 2.0, cos)
-            })
-            .collect();
-        assert_eq!(measure(&tube, &ring).turns.abs(), 1);
+        // Seen against the gradient, the cone is on the left of the circle walked like this.
+        let lower = of(&cone, |t| DVec3::new(t.cos(), t.sin(), 0.0), DVec3::Z, true);
+        // The base is in the plane z = 0 and adds nothing.
+        assert!((lower - PI * 2.0 / 3.0).abs() < 1e-4, "{lower}");
     }
 }

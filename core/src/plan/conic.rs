@@ -1,4 +1,4 @@
-//! Circles and ellipses in space, as cuts of cylinders and as drawn curves on planes.
+//! Circles and ellipses in space, as cuts of round surfaces and as drawn curves on planes.
 
 use std::f64::consts::TAU;
 
@@ -19,16 +19,71 @@ pub(super) struct Conic {
 const ROUND: f64 = 1e-9;
 
 impl Conic {
-    /// The curve in which a plane cuts a cylinder; `None` if it is parallel to the axis, or nearly.
-    pub(super) fn cut(plane: DVec3, normal: DVec3, cylinder: &Support) -> Option<Self> {
-        let Support::Cylinder {
-            origin,
-            axis,
-            radius,
-        } = *cylinder
-        else {
-            return None;
-        };
+    /// The circle around an axis through a point; `None` if the point is on the axis.
+    pub(super) fn around(origin: DVec3, axis: DVec3, p: DVec3) -> Option<Self> {
+        let center = origin + axis * axis.dot(p - origin);
+        let major = p - center;
+        let round = major.length() > 1e-12 * (1.0 + center.length());
+        round.then(|| Self {
+            center,
+            major,
+            minor: axis.cross(major),
+        })
+    }
+
+    /// The closed curve in which a plane cuts a cylinder, cone or sphere; `None` if it is not
+    /// closed, or nearly not, or no conic.
+    pub(super) fn cut(plane: DVec3, normal: DVec3, surface: &Support) -> Option<Self> {
+        match *surface {
+            Support::Cylinder {
+                origin,
+                axis,
+                radius,
+            } => Self::cut_cylinder(plane, normal, (origin, axis, radius)),
+            Support::Cone { apex, axis, angle } => {
+                let (sin, cos) = angle.sin_cos();
+                let side = normal.reject_from_normalized(axis);
+                let side = side.normalize_or(axis.any_orthonormal_vector());
+                // Where the two generators meet the plane that lean most and least to it.
+                let ends = [side, -side].map(|w| {
+                    let along = axis * cos + w * sin;
+                    let t = normal.dot(plane - apex) / normal.dot(along);
+                    (t.is_finite() && t > 0.0).then(|| apex + along * t)
+                });
+                let [Some(p), Some(q)] = ends else {
+                    return None;
+                };
+                let (center, major) = (p.midpoint(q), (p - q) / 2.0);
+                let height = axis.dot(center - apex);
+                let aside = (center - apex - axis * height).length_squared();
+                let minor = ((height * sin / cos).powi(2) - aside).sqrt();
+                let across = normal.cross(major).try_normalize()?;
+                // A very long ellipse is nearly a parabola.
+                (minor > 1e-2 * major.length()).then(|| Self {
+                    center,
+                    major,
+                    minor: across * minor,
+                })
+            }
+            Support::Sphere { center, radius } => {
+                let height = normal.dot(plane - center);
+                let inner = (radius * radius - height * height).sqrt();
+                let (u, v) = normal.any_orthonormal_pair();
+                (inner > 1e-6 * radius).then(|| Self {
+                    center: center + normal * height,
+                    major: u * inner,
+                    minor: v * inner,
+                })
+            }
+            _ => None,
+        }
+    }
+
+    fn cut_cylinder(
+        plane: DVec3,
+        normal: DVec3,
+        (origin, axis, radius): (DVec3, DVec3, f64),
+    ) -> Option<Self> {
         let slope = normal.dot(axis);
         if slope.abs() < 1e-3 {
             return None;

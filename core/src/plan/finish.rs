@@ -35,7 +35,7 @@ pub(super) fn finish(mut plan: Plan, options: &PlanOptions) -> Plan {
                 place(center);
                 *major *= scale;
             }
-            Curve3::Points { points } => points.iter_mut().for_each(place),
+            Curve3::Points { points, .. } => points.iter_mut().for_each(place),
         }
     }
     for face in &mut plan.faces {
@@ -45,6 +45,22 @@ pub(super) fn finish(mut plan: Plan, options: &PlanOptions) -> Plan {
                 place(origin);
                 *radius *= scale;
             }
+            Surface3::Cone { apex, .. } => place(apex),
+            Surface3::Sphere { center, radius, .. } => {
+                place(center);
+                *radius *= scale;
+            }
+            Surface3::Torus {
+                center,
+                major,
+                minor,
+                ..
+            } => {
+                place(center);
+                *major *= scale;
+                *minor *= scale;
+            }
+            Surface3::Filled => {}
         }
     }
     plan

@@ -35,6 +35,9 @@ pub enum Curve3 {
     Points {
         /// Points in order, at least two.
         points: Vec<DVec3>,
+        /// Unit tangents at the first and the last point, along the curve, if they are known.
+        #[serde(default)]
+        tangents: Option<[DVec3; 2]>,
     },
 }
 
@@ -60,6 +63,41 @@ pub enum Surface3 {
         /// Whether the solid is outside the cylinder, as around a hole.
         hollow: bool,
     },
+    /// One nappe of a circular cone.
+    Cone {
+        /// The apex.
+        apex: DVec3,
+        /// Unit direction of the axis, from the apex into the cone.
+        axis: DVec3,
+        /// Angle between axis and surface, radians, between 0 and a right angle.
+        angle: f64,
+        /// Whether the solid is outside the cone, as at a countersink.
+        hollow: bool,
+    },
+    /// Sphere.
+    Sphere {
+        /// Centre.
+        center: DVec3,
+        /// Radius.
+        radius: f64,
+        /// Whether the solid is outside the sphere.
+        hollow: bool,
+    },
+    /// Torus.
+    Torus {
+        /// Centre.
+        center: DVec3,
+        /// Unit direction of the axis.
+        axis: DVec3,
+        /// Radius of the spine.
+        major: f64,
+        /// Radius of the tube.
+        minor: f64,
+        /// Whether the solid is outside the tube, as at the fillet of an inner corner.
+        hollow: bool,
+    },
+    /// A surface of no known kind: it is to be laid through the face's edges.
+    Filled,
 }
 
 /// An edge of the plan.

@@ -5,9 +5,10 @@ use glam::DVec3;
 use crate::drawing::CoEdge;
 
 use super::PlanError;
-use super::chart::{Measure, measure};
+use super::chart::{Sight, sides, volume};
 use super::support::Support;
 use super::uses::Use;
+use super::view::View;
 
 /// A face with its loops in the order and direction of the plan.
 #[derive(Debug, Clone)]
@@ -31,22 +32,24 @@ struct Draft {
 
 /// Orients the loops of all faces.
 ///
-/// Loops of one face are tied by geometry: with the gradient towards the viewer the outer one runs
-/// counter-clockwise and the others clockwise. Faces are tied by their common edges, which they
-/// walk in opposite directions. What is left is one choice for each shell: its volume is positive,
-/// or negative if it is a void inside another shell.
+/// Loops of one face are tied by the drawing: outlines are drawn, so a face is seen from the front
+/// or from behind all over, and in the drawing its outer loop runs the one way round and the others
+/// the other way. Faces are tied by their common edges, which they walk in opposite directions.
+/// What is left is one choice for each shell: its volume is positive, or negative if it is a void
+/// inside another shell.
 ///
 /// `points` gives the points along a co-edge without the last one.
 pub(super) fn orient(
     loops: &[Vec<Vec<CoEdge>>],
     supports: &[Support],
     uses: &[[Use; 2]],
+    view: &View,
     points: impl Fn(CoEdge) -> Vec<DVec3>,
 ) -> Result<Vec<Oriented>, PlanError> {
     let drafts: Vec<Draft> = loops
         .iter()
         .zip(supports)
-        .map(|(loops, support)| draft(loops, support, &points))
+        .map(|(loops, support)| draft(loops, support, view, &points))
         .collect();
     let shells = propagate(&drafts, uses)?;
     let mut flips: Vec<bool> = vec![false; drafts.len()];
@@ -78,35 +81,35 @@ pub(super) fn orient(
 fn draft(
     loops: &[Vec<CoEdge>],
     support: &Support,
+    view: &View,
     points: &impl Fn(CoEdge) -> Vec<DVec3>,
 ) -> Draft {
     let polylines: Vec<Vec<DVec3>> = loops
         .iter()
         .map(|walk| walk.iter().flat_map(|c| points(*c)).collect())
         .collect();
-    let measures: Vec<Measure> = polylines.iter().map(|p| measure(support, p)).collect();
-    // A loop around a cylinder has no inside; of two such loops the lower one walks forwards.
-    let height = |i: usize| -measures[i].area * f64::from(measures[i].turns);
-    let around: Vec<usize> = (0..loops.len())
-        .filter(|&i| measures[i].turns != 0)
-        .collect();
-    let lowest = around
-        .iter()
-        .copied()
-        .min_by(|&a, &b| height(a).total_cmp(&height(b)));
-    let largest = (0..loops.len()).max_by(|&a, &b| {
-        let size = |i: usize| measures[i].area.abs();
-        size(a).total_cmp(&size(b))
-    });
-    let outer = lowest.or(largest).unwrap_or(0);
+    let all = || polylines.iter().flatten();
+    // A surface that says nothing is taken to have its gradient towards the viewer.
+    let facing: f64 = all()
+        .map(|p| support.gradient(*p).dot(view.toward(*p)))
+        .sum();
+    let front = facing >= 0.0;
+    let areas: Vec<f64> = polylines.iter().map(|p| drawn_area(p, view)).collect();
+    let outer = (0..loops.len())
+        .max_by(|&a, &b| areas[a].abs().total_cmp(&areas[b].abs()))
+        .unwrap_or(0);
     let turned: Vec<bool> = (0..loops.len())
-        .map(|i| match measures[i].turns {
-            0 => (measures[i].area > 0.0) != (i == outer),
-            turns => (turns > 0) != (i == outer),
-        })
+        .map(|i| (areas[i] > 0.0) != ((i == outer) == front))
         .collect();
-    let sign = |i: usize| if turned[i] { -1.0 } else { 1.0 };
-    let volume = (0..loops.len()).map(|i| sign(i) * measures[i].volume).sum();
+    let middle = all().sum::<DVec3>() / all().count().max(1) as f64;
+    let sight = Sight {
+        toward: view.toward(middle),
+        front,
+    };
+    let share = |i: usize| {
+        let volume = volume(support, &polylines[i], sight);
+        if turned[i] { -volume } else { volume }
+    };
     let mut order: Vec<usize> = (0..loops.len()).collect();
     order.sort_by_key(|&i| i != outer);
     let walk = |i: usize| -> Vec<CoEdge> {
@@ -116,14 +119,23 @@ fn draft(
             loops[i].clone()
         }
     };
-    let all = || polylines.iter().flatten();
     Draft {
         loops: order.iter().map(|&i| walk(i)).collect(),
+        volume: (0..loops.len()).map(share).sum(),
         turned,
-        volume,
         low: all().fold(DVec3::INFINITY, |m, p| m.min(*p)),
         high: all().fold(DVec3::NEG_INFINITY, |m, p| m.max(*p)),
     }
+}
+
+/// Signed area of a closed polyline in the drawing, positive if counter-clockwise.
+fn drawn_area(points: &[DVec3], view: &View) -> f64 {
+    let origin = points
+        .first()
+        .map_or(glam::DVec2::ZERO, |p| view.project(*p));
+    sides(points)
+        .map(|(p, q)| (view.project(p) - origin).perp_dot(view.project(q) - origin) / 2.0)
+        .sum()
 }
 
 /// Faces of one shell, each with whether it is turned around to fit the first.

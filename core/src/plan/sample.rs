@@ -7,10 +7,10 @@ use super::{Curve3, PlanEdge};
 
 /// Points along an edge from its first vertex to its last, both included: two for a line, `steps`
 /// and one more for a circle or ellipse, the points themselves else.
-pub(super) fn polyline(edge: &PlanEdge, vertices: &[DVec3], steps: usize) -> Vec<DVec3> {
+pub fn polyline(edge: &PlanEdge, vertices: &[DVec3], steps: usize) -> Vec<DVec3> {
     let [start, end] = edge.v.map(|v| vertices[v]);
     match (&edge.curve, Conic::of(&edge.curve, start)) {
-        (Curve3::Points { points }, _) => points.clone(),
+        (Curve3::Points { points, .. }, _) => points.clone(),
         (_, None) => vec![start, end],
         (_, Some(conic)) => arc(&conic, start, end, edge.v[0] == edge.v[1], steps),
     }

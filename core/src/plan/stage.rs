@@ -11,12 +11,12 @@ use super::curves::{self, Place};
 use super::lengths::Lengths;
 use super::orient::orient;
 use super::snap::{Measured, snap};
-use super::support::Support;
+use super::support::{Support, checked, oriented};
 use super::uses::{Use, uses};
 use super::vertices::Incidence;
 use super::view::View;
 use super::{Orientation, Plan, PlanEdge, PlanError, PlanFace, PlanOptions};
-use super::{finish, sample, silhouette, touch, upright};
+use super::{finish, graze, sample, silhouette, touch, upright};
 
 /// Surfaces are snapped within this share of the drawing's size, and within ten times the lift's
 /// residual, but never more than [`SNAP_MOST`].
@@ -80,24 +80,45 @@ pub fn plan(drawing: &Drawing, faces: &[Face], lift: &Lift, options: &PlanOption
         .collect();
 
     let measured = measured(drawing, faces, lift, &view, &lifted)?;
-    let mut snapped = snap(&measured, &smooth_pairs(drawing, &uses), &axes, snap_length);
+    let mut snapped = snap(
+        &measured,
+        &smooth_pairs(drawing, &uses, &measured),
+        &axes,
+        snap_length,
+    );
     notices.append(&mut snapped.notices);
     let incidence = Incidence::new(drawing, &uses, &snapped.of_face);
     touch::make_exact(&mut snapped.supports, &incidence.contacts(), snap_length);
+    let grazing = graze::triples(&snapped.supports, incidence.supports(), snap_length);
+    graze::make_exact(&mut snapped.supports, &grazing);
     let supports: Vec<Support> = snapped
         .of_face
         .iter()
         .map(|&s| snapped.supports[s])
         .collect();
 
+    let silhouettes: Vec<bool> = uses
+        .iter()
+        .zip(&drawing.edges)
+        .enumerate()
+        .map(|(e, ([a, b], edge))| match supports[a.face] {
+            Support::Unknown => {
+                supports[b.face] == Support::Unknown && silhouette::is_fold(drawing, e)
+            }
+            surface => {
+                let ends = edge.v.map(|v| lifted[v]);
+                snapped.of_face[a.face] == snapped.of_face[b.face]
+                    && silhouette::is_outline(&surface, edge, ends, &view)
+            }
+        })
+        .collect();
     let outlines: Vec<Option<Support>> = uses
         .iter()
         .zip(&drawing.edges)
-        .map(|([a, b], edge)| {
-            let one = snapped.of_face[a.face] == snapped.of_face[b.face] && edge.is_straight();
+        .zip(&silhouettes)
+        .map(|(([a, _], edge), silhouette)| {
             let ends = edge.v.map(|v| lifted[v]);
-            one.then(|| silhouette::outline(&supports[a.face], ends, &view))
-                .flatten()
+            silhouette.then(|| silhouette::plane_of(&supports[a.face], ends, &view))?
         })
         .collect();
     let lengths = Lengths {
@@ -115,11 +136,12 @@ pub fn plan(drawing: &Drawing, faces: &[Face], lift: &Lift, options: &PlanOption
             faces: [a.face, b.face],
             supports: [supports[a.face], supports[b.face]],
             same: snapped.of_face[a.face] == snapped.of_face[b.face],
+            silhouette: silhouettes[e],
         };
         edges.push(PlanEdge {
             v: edge.v,
             curve: curves::curve(&place, &view, lengths)?,
-            silhouette: outlines[e].is_some(),
+            silhouette: silhouettes[e],
         });
     }
 
@@ -132,13 +154,13 @@ pub fn plan(drawing: &Drawing, faces: &[Face], lift: &Lift, options: &PlanOption
         points
     };
     let loops: Vec<_> = faces.iter().map(|f| f.loops.clone()).collect();
-    let oriented = orient(&loops, &supports, &uses, points)?;
-    let faces = oriented
+    let turned = orient(&loops, &supports, &uses, &view, points)?;
+    let faces = turned
         .into_iter()
         .zip(&supports)
         .enumerate()
         .map(|(f, (face, support))| PlanFace {
-            surface: support.oriented(face.reversed),
+            surface: oriented(support, face.reversed),
             loops: face.loops,
             sources: vec![f],
         })
@@ -198,7 +220,7 @@ fn measured(
 ) -> Result<Vec<Measured>, PlanError> {
     let mut measured = Vec::with_capacity(faces.len());
     for (f, (face, surface)) in faces.iter().zip(&lift.surfaces).enumerate() {
-        let support = Support::from_lift(surface).map_err(|what| PlanError::Surface {
+        let support = checked(surface).map_err(|what| PlanError::Surface {
             face: f + 1,
             what: what.to_owned(),
         })?;
@@ -214,11 +236,15 @@ fn measured(
     Ok(measured)
 }
 
-/// Pairs of faces that meet in a straight edge, where a cylinder may touch its neighbour.
-fn smooth_pairs(drawing: &Drawing, uses: &[[Use; 2]]) -> Vec<[usize; 2]> {
+/// Pairs of faces that an outline may part: straight, unless the surface is a sphere or a torus.
+fn smooth_pairs(drawing: &Drawing, uses: &[[Use; 2]], measured: &[Measured]) -> Vec<[usize; 2]> {
+    let doubly_curved = |face: usize| {
+        let support = &measured[face].support;
+        matches!(support, Support::Sphere { .. } | Support::Torus { .. })
+    };
     uses.iter()
         .zip(&drawing.edges)
-        .filter(|(_, edge)| edge.is_straight())
+        .filter(|([a, _], edge)| edge.is_straight() != doubly_curved(a.face))
         .map(|([a, b], _)| [a.face, b.face])
         .collect()
 }

@@ -26,7 +26,7 @@ pub(super) fn make_exact(supports: &mut [Support], contacts: &[[usize; 2]], tole
         .iter()
         .map(|&[a, b]| match supports[a] {
             Support::Plane { .. } => [a, b],
-            Support::Cylinder { .. } => [b, a],
+            _ => [b, a],
         })
         .filter(|&[a, b]| touch(&supports[a], &supports[b], tolerance).is_some())
         .collect();
@@ -133,16 +133,18 @@ impl Unknowns {
             (0..supports.len()).map(|s| twin(s).unwrap_or(s)).collect()
         };
         let radius = |s: &Support| match s {
-            Support::Plane { .. } => None,
             Support::Cylinder { radius, .. } => Some(*radius),
+            _ => None,
         };
         Self {
             shifts: vec![DVec3::ZERO; supports.len()],
             radii: supports.iter().map(|s| radius(s).unwrap_or(0.0)).collect(),
-            shift_of: first(&|a, b| match (radius(a), radius(b)) {
-                (Some(r), Some(_)) => {
-                    let aside = (b.origin() - a.origin()).reject_from_normalized(a.direction());
-                    a.direction().cross(b.direction()).length() < 1e-12 && aside.length() < 1e-9 * r
+            // Cones and tori follow a cylinder that they share the axis with.
+            shift_of: first(&|a, b| match (a.axis(), b.axis()) {
+                (Some((p, d)), Some((q, e))) => {
+                    let aside = (q - p).reject_from_normalized(d);
+                    let scale = p.distance(q).max(a.radius().min(b.radius()).min(1.0));
+                    d.cross(e).length() < 1e-12 && aside.length() < 1e-9 * scale
                 }
                 _ => false,
             }),
@@ -154,12 +156,12 @@ impl Unknowns {
     fn at(&self, supports: &[Support], s: usize) -> Support {
         let origin = supports[s].origin() + self.shifts[self.shift_of[s]];
         match supports[s] {
-            Support::Plane { normal, .. } => Support::Plane { origin, normal },
             Support::Cylinder { axis, .. } => Support::Cylinder {
                 origin,
                 axis,
                 radius: self.radii[self.radius_of[s]],
             },
+            other => other.with_origin(origin),
         }
     }
 
@@ -191,11 +193,7 @@ pub(super) fn contact(a: &Support, b: &Support, near: DVec3, tolerance: f64) -> 
         origin: b.origin(),
         normal: b.direction().cross(touch.across).try_normalize()?,
     };
-    let radius = |s: &Support| match s {
-        Support::Plane { .. } => f64::INFINITY,
-        Support::Cylinder { radius, .. } => *radius,
-    };
-    let close = found.distance(near).abs() <= NEAR * radius(a).min(radius(b));
+    let close = found.distance(near).abs() <= NEAR * a.radius().min(b.radius());
     close.then_some(found)
 }
 

@@ -7,8 +7,11 @@ use crate::drawing::Drawing;
 use super::PlanError;
 use super::lengths::Lengths;
 use super::support::{Support, meet};
-use super::touch;
 use super::uses::Use;
+use super::{graze, touch};
+
+/// A wall this close to a circle, in drawing units, was made to touch it.
+const TOUCHES: f64 = 1e-12;
 
 /// What meets at one vertex.
 #[derive(Debug, Clone, Default)]
@@ -58,6 +61,11 @@ impl Incidence {
         pairs
     }
 
+    /// The supports at each vertex.
+    pub(super) fn supports(&self) -> impl Iterator<Item = &[usize]> {
+        self.corners.iter().map(|c| &c.supports[..])
+    }
+
     /// The vertices where their surfaces meet, near the lifted ones. A silhouette's vertex lies in
     /// the plane of the outline as well, one where surfaces touch on the line of contact.
     ///
@@ -80,6 +88,9 @@ impl Incidence {
                     *start,
                     lengths.snap,
                 ));
+            }
+            for triple in graze::triples(supports, [&corner.supports[..]].into_iter(), TOUCHES) {
+                surfaces.extend(graze::contact(triple, supports));
             }
             for &(e, _) in &corner.beside {
                 if let Some(outline) = outlines[e]

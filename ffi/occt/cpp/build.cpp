@@ -3,9 +3,9 @@
 
 #include "bridge.h"
 #include "check.h"
+#include "face.h"
 #include "properties.h"
 #include "topology.h"
-#include "unify.h"
 #include "write.h"
 
 namespace faceformer::occt {
@@ -14,7 +14,6 @@ namespace {
 // Shares of the whole at which the parts of the work begin.
 constexpr double kFacesShare = 0.1;
 constexpr double kCheckShare = 0.4;
-constexpr double kUnifyShare = 0.6;
 constexpr double kWriteShare = 0.9;
 
 void report(const Watcher &watcher, double share) {
@@ -43,19 +42,12 @@ void run(const Model &model, const Watcher &watcher, Topology &topology, Outcome
   const std::size_t count = model.faces.size();
   for (std::size_t f = 0; f < count; ++f) {
     report(watcher, kFacesShare + (kCheckShare - kFacesShare) * f / count);
-    make_face(model, f, topology);
+    make_face(model, f, topology, outcome);
   }
   report(watcher, kCheckShare);
   TopoDS_Shape solid = make_solid(model, topology);
   check_model(model, topology, solid);
 
-  report(watcher, kUnifyShare);
-  outcome.merged = model.merged_faces == count;
-  if (!outcome.merged) {
-    const TopoDS_Shape unified = unify(model, topology, solid);
-    outcome.merged = !unified.IsNull();
-    solid = outcome.merged ? unified : solid;
-  }
   report(watcher, kWriteShare);
   solid = scaled(solid, model.scale);
   measure(solid, outcome);

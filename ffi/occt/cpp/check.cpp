@@ -101,11 +101,13 @@ void name_fault(const BRepCheck_Analyzer &analyzer, const Topology &topology,
     }
   }
   for (TopExp_Explorer it(solid, TopAbs_FACE); it.More(); it.Next()) {
-    std::string text = bad_status(analyzer, it.Current());
+    // What is wrong with a wire says more than that its face has no sides then.
+    std::string text;
     for (TopExp_Explorer wire(it.Current(), TopAbs_WIRE); text.empty() && wire.More();
          wire.Next()) {
       text = bad_status(analyzer, wire.Current());
     }
+    text = text.empty() ? bad_status(analyzer, it.Current()) : text;
     if (!text.empty()) {
       throw BuildFault(Fault::Face, number_of(it.Current(), topology.faces),
                        "it is not valid: " + text);
@@ -153,11 +155,6 @@ void check_model(const Model &model, const Topology &topology, const TopoDS_Shap
     throw BuildFault(Fault::Tolerance, 0,
                      "its parts meet only within " + length_text(tolerance, model));
   }
-}
-
-bool is_sound(const Model &model, const TopoDS_Shape &solid) {
-  return BRepCheck_Analyzer(solid).IsValid() && shell_fault(solid).empty() &&
-         largest_tolerance(solid) <= model.tolerance;
 }
 
 } // namespace faceformer::occt

@@ -11,9 +11,6 @@ namespace faceformer::occt {
 // Throws a BuildFault that names the edge or face of the model.
 void check_model(const Model &model, const Topology &topology, const TopoDS_Shape &solid);
 
-// The same checks of a solid whose faces are no longer the model's; says yes or no.
-bool is_sound(const Model &model, const TopoDS_Shape &solid);
-
 // Largest tolerance of a vertex, edge or face.
 double largest_tolerance(const TopoDS_Shape &shape);
 

@@ -83,6 +83,11 @@ Segment spline_through(const Edge &edge, const gp_Pnt &start, const gp_Pnt &end)
     points->SetValue(used, end);
   }
   GeomAPI_Interpolate interpolate(points, closed, Precision::Confusion());
+  if (!closed && edge.tangents.size() == 2) {
+    const Point &first = edge.tangents[0];
+    const Point &last = edge.tangents[1];
+    interpolate.Load(gp_Vec(first.x, first.y, first.z), gp_Vec(last.x, last.y, last.z));
+  }
   interpolate.Perform();
   if (!interpolate.IsDone()) {
     throw std::domain_error("no curve can be laid through its points");

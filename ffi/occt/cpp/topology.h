@@ -1,17 +1,19 @@
 // The B-rep while it grows: OCCT shapes by the numbers they have in the model.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include <Geom_Curve.hxx>
-#include <Geom_Surface.hxx>
+#include <Precision.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Vertex.hxx>
 #include <gp_Pnt.hxx>
 
+#include "curve.h"
 #include "faceformer-occt/src/bridge.rs.h"
 
 namespace faceformer::occt {
@@ -40,15 +42,27 @@ struct Topology {
   TopoDS_Shape partial() const;
 };
 
+inline std::size_t edge_index(std::int32_t coedge) {
+  return static_cast<std::size_t>(std::abs(coedge)) - 1;
+}
+
+// A tolerance that covers a measured distance with some room.
+inline double covering(double distance) {
+  return std::max(Precision::Confusion(), distance * 1.05);
+}
+
+// The curve of an edge and its range.
+Segment segment_of(const TopoDS_Edge &edge);
+
+// Grows the tolerance of an edge's vertices.
+void raise_vertices(const Model &model, std::size_t edge, double tolerance,
+                    const Topology &topology);
+
 inline gp_Pnt to_point(const Point &p) { return gp_Pnt(p.x, p.y, p.z); }
 inline gp_Dir to_dir(const Point &p) { return gp_Dir(p.x, p.y, p.z); }
 
 // Makes every vertex and edge once; faces then share them.
 void make_edges(const Model &model, Topology &topology);
-
-// Makes face `index` (from 0) from the shared edges and adds it. Its edges get a curve in the
-// parameter plane of a cylinder; tolerances grow to what the geometry needs.
-void make_face(const Model &model, std::size_t index, Topology &topology);
 
 // The shells of all faces as one solid, not yet checked.
 TopoDS_Shape make_solid(const Model &model, const Topology &topology);

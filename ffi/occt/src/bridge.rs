@@ -44,8 +44,8 @@ pub(crate) mod ffi {
         ratio: f64,
         /// Points of a spline, both ends included.
         points: Vec<Point>,
-        /// Splits one surface only; removed at the end.
-        silhouette: bool,
+        /// Unit tangents at its ends; none if they are not known.
+        tangents: Vec<Point>,
     }
 
     /// Kind of a face's surface.
@@ -53,6 +53,11 @@ pub(crate) mod ffi {
     enum SurfaceType {
         Plane,
         Cylinder,
+        Cone,
+        Sphere,
+        Torus,
+        /// Laid through the edges.
+        Filled,
     }
 
     /// A closed walk of co-edges: edge number from 1, negative if walked backwards.
@@ -61,15 +66,19 @@ pub(crate) mod ffi {
         coedges: Vec<i32>,
     }
 
-    /// A face: outer loop first, seen from outside the face is on the left.
+    /// A face: outer loop first, seen from outside the face is on the left. A seam is in one loop
+    /// twice; a whole sphere or torus has no loop.
     #[derive(Debug)]
     struct Face {
         kind: SurfaceType,
         origin: Point,
-        /// Outward unit normal of a plane, unit axis of a cylinder.
+        /// Outward unit normal of a plane, unit axis of a round surface.
         direction: Point,
-        radius: f64,
-        /// Whether the solid is outside the cylinder.
+        /// Radius of a cylinder or sphere, of a cone at its origin, of the spine of a torus.
+        first: f64,
+        /// Half angle of a cone, radius of the tube of a torus.
+        second: f64,
+        /// Whether the solid is outside the round surface.
         hollow: bool,
         loops: Vec<Loop>,
         /// Shell that the face is in, from 0.
@@ -83,8 +92,6 @@ pub(crate) mod ffi {
         edges: Vec<Edge>,
         faces: Vec<Face>,
         shells: u32,
-        /// Number of faces when those that silhouettes part are one.
-        merged_faces: u32,
         /// Largest tolerance allowed.
         tolerance: f64,
         /// The finished solid is scaled by this.
@@ -125,8 +132,10 @@ pub(crate) mod ffi {
         largest_tolerance: f64,
         lower: Point,
         upper: Point,
-        /// Whether faces that silhouettes part were merged.
-        merged: bool,
+        /// Faces (number from 1) whose surface was laid through their edges.
+        filled: Vec<u32>,
+        /// Largest distance of each one's edges from it.
+        deviations: Vec<f64>,
     }
 
     extern "Rust" {

@@ -1,12 +1,15 @@
 //! From a plan to the flat data that cross to C++, checked so that no index and no number there
 //! can surprise the kernel.
 
-use faceformer::drawing::CoEdge;
-use faceformer::plan::{Curve3, Plan, PlanEdge, PlanFace, Surface3};
+use std::f64::consts::FRAC_PI_2;
+
+use faceformer::plan::{Curve3, Plan, Surface3};
 use glam::DVec3;
 
 use crate::OcctError;
+use crate::body::{Body, BodyEdge, BodyFace};
 use crate::bridge::ffi;
+use crate::groups::Groups;
 
 /// Half diagonal of the model inside the kernel: OCCT's fixed precision of 1e-7 is then 1e-9 of it.
 const INNER_SIZE: f64 = 100.0;
@@ -20,8 +23,16 @@ const CONFUSION: f64 = 1e-7;
 /// Unit vectors may be this far from unit length.
 const UNIT: f64 = 1e-6;
 
-/// The model, in units in which its half diagonal is about [`INNER_SIZE`].
-pub(crate) fn encode(plan: &Plan) -> Result<ffi::Model, OcctError> {
+/// A model, and which edges and faces of the plan (from 0) its own are.
+pub(crate) struct Encoded {
+    /// In units in which its half diagonal is about [`INNER_SIZE`].
+    pub(crate) model: ffi::Model,
+    pub(crate) edges: Vec<usize>,
+    pub(crate) faces: Vec<usize>,
+}
+
+/// The model of a plan.
+pub(crate) fn encode(plan: &Plan) -> Result<Encoded, OcctError> {
     if plan.faces.is_empty() || plan.edges.is_empty() {
         return Err(OcctError::Plan("it has no faces or no edges".to_owned()));
     }
@@ -46,44 +57,40 @@ pub(crate) fn encode(plan: &Plan) -> Result<ffi::Model, OcctError> {
             "its size {size:e} is out of range"
         )));
     }
-    let edges = plan
+    for (f, face) in plan.faces.iter().enumerate() {
+        check_surface(f, &face.surface)?;
+    }
+    let body = Body::new(plan)?;
+    let edges = body
         .edges
         .iter()
-        .enumerate()
-        .map(|(e, edge)| encode_edge(plan, e, edge, factor))
+        .map(|edge| encode_edge(&body, edge, factor))
         .collect::<Result<_, _>>()?;
-    let shells = Groups::of_faces(plan, |_| true)?.labels();
-    let merged = Groups::of_faces(plan, |e| plan.edges[e].silhouette)?.labels();
-    let faces = plan
+    let loops = body.faces.iter().map(|f| &f.loops);
+    let shells = Groups::new(loops, body.edges.len(), |_| true).labels();
+    let faces = body
         .faces
         .iter()
         .zip(&shells)
-        .enumerate()
-        .map(|(f, (face, &shell))| encode_face(f, face, shell, factor))
-        .collect::<Result<_, _>>()?;
-    let count = |labels: &[u32]| labels.iter().max().map_or(0, |m| m + 1);
-    Ok(ffi::Model {
-        points: plan.vertices.iter().map(|&p| point(p * factor)).collect(),
-        edges,
-        faces,
-        shells: count(&shells),
-        merged_faces: count(&merged),
-        tolerance: TOLERANCE * size * factor,
-        scale: factor.recip(),
+        .map(|(face, &shell)| encode_face(&body, face, shell, factor))
+        .collect();
+    Ok(Encoded {
+        edges: body.edges.iter().map(|e| e.source).collect(),
+        faces: body.faces.iter().map(|f| f.source).collect(),
+        model: ffi::Model {
+            points: body.vertices.iter().map(|&p| point(p * factor)).collect(),
+            edges,
+            faces,
+            shells: shells.iter().max().map_or(0, |m| m + 1),
+            tolerance: TOLERANCE * size * factor,
+            scale: factor.recip(),
+        },
     })
 }
 
-fn encode_edge(
-    plan: &Plan,
-    e: usize,
-    edge: &PlanEdge,
-    factor: f64,
-) -> Result<ffi::Edge, OcctError> {
-    let bad = |what: &str| OcctError::Plan(format!("edge {} {what}", e + 1));
+fn encode_edge(body: &Body, edge: &BodyEdge, factor: f64) -> Result<ffi::Edge, OcctError> {
+    let bad = |what: &str| OcctError::Plan(format!("edge {} {what}", edge.source + 1));
     let [first, last] = edge.v;
-    if first >= plan.vertices.len() || last >= plan.vertices.len() {
-        return Err(bad("names a vertex that is not there"));
-    }
     let zero = point(DVec3::ZERO);
     let mut out = ffi::Edge {
         first: first as u32,
@@ -94,7 +101,7 @@ fn encode_edge(
         major: zero,
         ratio: 1.0,
         points: Vec::new(),
-        silhouette: edge.silhouette,
+        tangents: Vec::new(),
     };
     let ellipse = |center: DVec3, normal: DVec3, major: DVec3, ratio: f64| {
         let finite = center.is_finite() && normal.is_finite() && major.is_finite();
@@ -131,7 +138,7 @@ fn encode_edge(
             radius,
         } => {
             // Any radius vector may be the major axis of a circle.
-            let arm = (plan.vertices[first] - *center).reject_from(*normal);
+            let arm = (body.vertices[first] - *center).reject_from(*normal);
             let arm = arm.normalize_or(normal.any_orthogonal_vector().normalize_or_zero());
             out.kind = ffi::CurveKind::Ellipse;
             (out.center, out.normal, out.major, out.ratio) =
@@ -147,42 +154,115 @@ fn encode_edge(
             (out.center, out.normal, out.major, out.ratio) =
                 ellipse(*center, *normal, *major, *ratio)?;
         }
-        Curve3::Points { points } => {
-            if points.len() < 2 || points.iter().any(|p| !p.is_finite()) {
-                return Err(bad("needs two finite points or more"));
-            }
+        Curve3::Points { points, tangents } => {
             out.kind = ffi::CurveKind::Spline;
             out.points = points.iter().map(|&p| point(p * factor)).collect();
+            let known = tangents.filter(|t| t.iter().all(|t| t.is_finite()));
+            out.tangents = known.into_iter().flatten().map(point).collect();
         }
     }
     Ok(out)
 }
 
-fn encode_face(f: usize, face: &PlanFace, shell: u32, factor: f64) -> Result<ffi::Face, OcctError> {
-    let bad = |what: &str| OcctError::Plan(format!("face {} {what}", f + 1));
-    if face.loops.is_empty() || face.loops.iter().any(Vec::is_empty) {
-        return Err(bad("has no loop, or an empty one"));
+/// Whether the numbers of a surface make sense.
+fn check_surface(f: usize, surface: &Surface3) -> Result<(), OcctError> {
+    let bad = |what: &str| Err(OcctError::Plan(format!("face {} {what}", f + 1)));
+    let (origin, direction, lengths) = match *surface {
+        Surface3::Plane { origin, normal } => (origin, normal, [1.0; 2]),
+        Surface3::Cylinder {
+            origin,
+            axis,
+            radius,
+            ..
+        } => (origin, axis, [radius; 2]),
+        Surface3::Cone {
+            apex, axis, angle, ..
+        } => (apex, axis, [angle, FRAC_PI_2 - angle]),
+        Surface3::Sphere { center, radius, .. } => (center, DVec3::Z, [radius; 2]),
+        Surface3::Torus {
+            center,
+            axis,
+            major,
+            minor,
+            ..
+        } => (center, axis, [major, minor]),
+        Surface3::Filled => return Ok(()),
+    };
+    let positive = |x: f64| x.is_finite() && x > 0.0;
+    if !origin.is_finite() || !direction.is_finite() || !lengths.into_iter().all(positive) {
+        return bad("has a surface with a number that cannot be used");
     }
-    let (kind, origin, direction, radius, hollow) = match face.surface {
-        Surface3::Plane { origin, normal } => (ffi::SurfaceType::Plane, origin, normal, 1.0, false),
+    if (direction.length() - 1.0).abs() > UNIT {
+        return bad("has a normal or axis that is not of unit length");
+    }
+    Ok(())
+}
+
+fn encode_face(body: &Body, face: &BodyFace, shell: u32, factor: f64) -> ffi::Face {
+    let zero = DVec3::ZERO;
+    // Kind, origin, direction, the two lengths or angles, which side is out.
+    let (kind, origin, direction, [first, second], hollow) = match face.surface {
+        Surface3::Plane { origin, normal } => {
+            (ffi::SurfaceType::Plane, origin, normal, [0.0; 2], false)
+        }
         Surface3::Cylinder {
             origin,
             axis,
             radius,
             hollow,
-        } => (ffi::SurfaceType::Cylinder, origin, axis, radius, hollow),
+        } => (
+            ffi::SurfaceType::Cylinder,
+            origin,
+            axis,
+            [radius * factor, 0.0],
+            hollow,
+        ),
+        Surface3::Cone {
+            apex,
+            axis,
+            angle,
+            hollow,
+        } => {
+            // Placed beside the face, which may be far from the apex.
+            let vertices = face.loops.iter().flatten().map(|c| body.start(*c));
+            let heights = vertices.map(|v| axis.dot(body.vertices[v] - apex));
+            let height = heights.fold(0.0, f64::max);
+            let radius = height * angle.tan() * factor;
+            let kind = ffi::SurfaceType::Cone;
+            (kind, apex + axis * height, axis, [radius, angle], hollow)
+        }
+        Surface3::Sphere {
+            center,
+            radius,
+            hollow,
+        } => (
+            ffi::SurfaceType::Sphere,
+            center,
+            face.axis,
+            [radius * factor, 0.0],
+            hollow,
+        ),
+        Surface3::Torus {
+            center,
+            axis,
+            major,
+            minor,
+            hollow,
+        } => (
+            ffi::SurfaceType::Torus,
+            center,
+            axis,
+            [major * factor, minor * factor],
+            hollow,
+        ),
+        Surface3::Filled => (ffi::SurfaceType::Filled, zero, DVec3::Z, [0.0; 2], false),
     };
-    if !origin.is_finite() || !direction.is_finite() || !radius.is_finite() || radius <= 0.0 {
-        return Err(bad("has a surface with a number that cannot be used"));
-    }
-    if (direction.length() - 1.0).abs() > UNIT {
-        return Err(bad("has a normal or axis that is not of unit length"));
-    }
-    Ok(ffi::Face {
+    ffi::Face {
         kind,
         origin: point(origin * factor),
         direction: point(direction),
-        radius: radius * factor,
+        first,
+        second,
         hollow,
         loops: face
             .loops
@@ -192,7 +272,7 @@ fn encode_face(f: usize, face: &PlanFace, shell: u32, factor: f64) -> Result<ffi
             })
             .collect(),
         shell,
-    })
+    }
 }
 
 fn point(p: DVec3) -> ffi::Point {
@@ -224,7 +304,7 @@ fn size(plan: &Plan) -> f64 {
                     add(*center * 2.0 - p);
                 }
             }
-            Curve3::Points { points } => points.iter().for_each(|&p| add(p)),
+            Curve3::Points { points, .. } => points.iter().for_each(|&p| add(p)),
             _ => {}
         }
     }
@@ -232,58 +312,5 @@ fn size(plan: &Plan) -> f64 {
         (high - low).length() / 2.0
     } else {
         f64::NAN
-    }
-}
-
-/// Faces grouped by the edges they share.
-struct Groups(Vec<usize>);
-
-impl Groups {
-    fn of_faces(plan: &Plan, joins: impl Fn(usize) -> bool) -> Result<Self, OcctError> {
-        let mut groups = Self((0..plan.faces.len()).collect());
-        let mut seen = vec![None; plan.edges.len()];
-        for (f, face) in plan.faces.iter().enumerate() {
-            for e in face.loops.iter().flatten().map(|c: &CoEdge| c.edge()) {
-                let Some(first) = seen.get_mut(e) else {
-                    let what = format!("face {} names edge {}, which is not there", f + 1, e + 1);
-                    return Err(OcctError::Plan(what));
-                };
-                match *first {
-                    None => *first = Some(f),
-                    Some(g) if joins(e) => groups.join(f, g),
-                    Some(_) => {}
-                }
-            }
-        }
-        Ok(groups)
-    }
-
-    fn root(&self, mut f: usize) -> usize {
-        while self.0[f] != f {
-            f = self.0[f];
-        }
-        f
-    }
-
-    /// The smaller index becomes the root, so that labels are in the order of the faces.
-    fn join(&mut self, a: usize, b: usize) {
-        let (a, b) = (self.root(a), self.root(b));
-        self.0[a.max(b)] = a.min(b);
-    }
-
-    /// Group of every face, numbered from 0 in the order of their first faces.
-    fn labels(&self) -> Vec<u32> {
-        let mut labels = vec![0; self.0.len()];
-        let mut next = 0;
-        for f in 0..labels.len() {
-            let root = self.root(f);
-            if root == f {
-                labels[f] = next;
-                next += 1;
-            } else {
-                labels[f] = labels[root];
-            }
-        }
-        labels
     }
 }

@@ -1,9 +1,11 @@
 //! Builds a [`Plan`](faceformer::plan::Plan) as an OpenCASCADE solid.
 //!
 //! One coarse call, [`build`], builds, checks and writes a whole solid. Vertices and edges are
-//! shared between faces from the start; loose faces are never sewn. Planes and cylinders, lines,
-//! circles and ellipses stay what they are; silhouettes are removed at the end. What comes out is
-//! valid, closed, of positive volume and tight, or an [`OcctError`] that names the edge or face.
+//! shared between faces from the start; loose faces are never sewn. Planes, cylinders, cones,
+//! spheres and tori, lines, circles and ellipses stay what they are; silhouettes are taken out
+//! first, so that a hole is one cylinder face with a seam. A face on a surface of no known kind is
+//! filled, and reported with its deviation. What comes out is valid, closed, of positive volume and
+//! tight, or an [`OcctError`] that names the edge or face.
 //!
 //! # Why a bridge of its own
 //! The crate `opencascade` 0.3 (over `opencascade-sys`) cannot make edges from shared vertices nor
@@ -18,12 +20,14 @@
 //!   process (FreeCAD's) never see each other's objects.
 //! - Inside the kernel the model has a half diagonal of about 100 units, whatever the plan's scale.
 
+mod body;
 mod bridge;
 mod encode;
 mod error;
+mod groups;
 mod report;
 mod solid;
 
 pub use error::OcctError;
-pub use report::{FaceCounts, SolidReport};
+pub use report::{FaceCounts, FilledFace, SolidReport};
 pub use solid::{Format, Solid, build, occt_version};

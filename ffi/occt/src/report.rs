@@ -62,13 +62,22 @@ pub struct SolidReport {
     pub shells: usize,
     /// Largest tolerance of a vertex, edge or face.
     pub largest_tolerance: f64,
-    /// Whether all faces that only silhouettes part were merged. `false` if the kernel could not:
-    /// the solid is valid all the same, but a hole is made of several cylinder faces.
-    pub merged: bool,
+    /// Faces whose surface was laid through their edges because its kind is not known.
+    pub filled: Vec<FilledFace>,
+}
+
+/// A face on a surface that was laid through its edges.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct FilledFace {
+    /// Face of the plan, from 0.
+    pub face: usize,
+    /// Largest distance of its edges from the surface, in the plan's units.
+    pub deviation: f64,
 }
 
 impl SolidReport {
-    pub(crate) fn new(outcome: &ffi::Outcome) -> Self {
+    /// `sources` are the plan's faces (from 0) that the kernel's came from.
+    pub(crate) fn new(outcome: &ffi::Outcome, sources: &[usize]) -> Self {
         let [plane, cylinder, cone, sphere, torus, other] = outcome.kinds.map(|k| k as usize);
         let face_counts = FaceCounts {
             plane,
@@ -89,7 +98,15 @@ impl SolidReport {
             vertices: outcome.vertices as usize,
             shells: outcome.shells as usize,
             largest_tolerance: outcome.largest_tolerance,
-            merged: outcome.merged,
+            filled: outcome
+                .filled
+                .iter()
+                .zip(&outcome.deviations)
+                .filter_map(|(number, &deviation)| {
+                    let face = *sources.get((*number as usize).checked_sub(1)?)?;
+                    Some(FilledFace { face, deviation })
+                })
+                .collect(),
         }
     }
 }

@@ -8,7 +8,7 @@ use faceformer::plan::Plan;
 use serde::{Deserialize, Serialize};
 
 use crate::bridge::{Watcher, ffi};
-use crate::encode::encode;
+use crate::encode::{Encoded, encode};
 use crate::{OcctError, SolidReport};
 
 /// File formats a solid is written in.
@@ -97,7 +97,11 @@ impl Solid {
 /// # Panics
 /// Only if the callback of `progress` panics: its panic goes on.
 pub fn build(plan: &Plan, progress: Progress<'_>) -> Result<Solid, OcctError> {
-    let model = encode(plan)?;
+    let Encoded {
+        model,
+        edges,
+        faces,
+    } = encode(plan)?;
     let watcher = Watcher::new(progress);
     let outcome = ffi::build(&model, &watcher);
     watcher.resume();
@@ -108,11 +112,16 @@ pub fn build(plan: &Plan, progress: Progress<'_>) -> Result<Solid, OcctError> {
         message,
         ..
     } = &outcome;
-    let (number, what) = (*number as usize, message.clone());
+    let what = message.clone();
+    // The fault's place in the plan, from 1; 0 if it has none.
+    let place = |sources: &[usize]| {
+        let index = (*number as usize).checked_sub(1);
+        index.and_then(|i| sources.get(i)).map_or(0, |s| s + 1)
+    };
     let partial = || outcome.brep.clone();
     Err(match *fault {
         ffi::Fault::None => {
-            let report = SolidReport::new(&outcome);
+            let report = SolidReport::new(&outcome, &faces);
             return Ok(Solid {
                 brep: outcome.brep,
                 report,
@@ -120,12 +129,12 @@ pub fn build(plan: &Plan, progress: Progress<'_>) -> Result<Solid, OcctError> {
         }
         ffi::Fault::Cancelled => OcctError::Cancelled,
         ffi::Fault::Edge => OcctError::Edge {
-            edge: number,
+            edge: place(&edges),
             what,
             partial: partial(),
         },
         ffi::Fault::Face => OcctError::Face {
-            face: number,
+            face: place(&faces),
             what,
             partial: partial(),
         },
@@ -205,7 +214,7 @@ mod tests {
     /// fail but end the process.
     #[test]
     fn occt_exception_becomes_an_error() {
-        let mut model = encode(&tetrahedron()).unwrap();
+        let mut model = encode(&tetrahedron()).unwrap().model;
         model.scale = 0.0;
         let error = ffi::build(&model, &Watcher::new(Progress::none())).unwrap_err();
         assert!(
@@ -216,7 +225,7 @@ mod tests {
 
     #[test]
     fn occt_exception_of_one_edge_names_the_edge() {
-        let mut model = encode(&tetrahedron()).unwrap();
+        let mut model = encode(&tetrahedron()).unwrap().model;
         model.edges[3].kind = ffi::CurveKind::Ellipse;
         let outcome = ffi::build(&model, &Watcher::new(Progress::none())).unwrap();
         assert_eq!((outcome.fault, outcome.number), (ffi::Fault::Edge, 4));

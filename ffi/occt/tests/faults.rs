@@ -123,7 +123,12 @@ fn plans_that_make_no_sense_are_refused() {
         |p| p.edges[1].v = [2, 2],
         |p| p.edges.truncate(3),
         |p| p.faces[1].loops.clear(),
-        |p| p.edges[0].curve = Curve3::Points { points: Vec::new() },
+        |p| {
+            p.edges[0].curve = Curve3::Points {
+                points: Vec::new(),
+                tangents: None,
+            };
+        },
         |p| {
             p.faces[0].surface = Surface3::Cylinder {
                 origin: DVec3::ZERO,

@@ -1,6 +1,8 @@
 //! Curves of edges in space, from how they are drawn and the surfaces beside them.
 
 mod drawn;
+mod exact;
+mod free;
 mod trace;
 
 use glam::DVec3;
@@ -19,6 +21,9 @@ use drawn::Drawn;
 /// beyond it the surfaces are wrong.
 const DRAWN_GAP: f64 = 0.02;
 
+/// Surfaces that meet at a smaller angle (its sine) do not tell the tangent of their curve.
+const SLANT: f64 = 0.02;
+
 /// What is known of an edge when its curve is sought.
 pub(super) struct Place<'a> {
     /// Edge, from 0.
@@ -32,44 +37,62 @@ pub(super) struct Place<'a> {
     pub(super) supports: [Support; 2],
     /// Whether both faces have the same surface.
     pub(super) same: bool,
+    /// Whether it is an outline of that surface.
+    pub(super) silhouette: bool,
 }
 
 /// The curve of an edge.
 ///
-/// A straight edge stays straight. A curved one is where its surfaces meet: a circle or ellipse
-/// where a plane cuts a cylinder; between two faces of one plane what is drawn, lifted onto it;
-/// between two cylinders a curve through points, or an ellipse if that is plane.
+/// A straight edge stays straight. A curved one is where its surfaces meet: a circle between
+/// surfaces around one axis, a circle or ellipse where a plane cuts a cylinder, cone or sphere;
+/// between two faces of one plane what is drawn, lifted onto it; else a curve through points, or a
+/// circle or ellipse if these lie on one. A silhouette is only where it is drawn.
 ///
 /// # Errors
 /// [`PlanError::OffSurface`] or [`PlanError::Curve`] if the surfaces do not meet where it is drawn.
 pub(super) fn curve(place: &Place<'_>, view: &View, lengths: Lengths) -> Result<Curve3, PlanError> {
+    let drawn = Drawn::new(place.drawn, view);
+    if place.silhouette && !place.drawn.is_straight() {
+        let points = trace::trace(&drawn, view, &place.supports[..1], place.ends);
+        return Ok(Curve3::Points {
+            points,
+            tangents: None,
+        });
+    }
     if place.drawn.is_straight() {
         return straight(place, lengths);
     }
-    let drawn = Drawn::new(place.drawn, view);
     match place.supports {
-        [
-            plane @ Support::Plane { .. },
-            tube @ Support::Cylinder { .. },
-        ]
-        | [
-            tube @ Support::Cylinder { .. },
-            plane @ Support::Plane { .. },
-        ] => {
-            match Conic::cut(plane.origin(), plane.direction(), &tube) {
-                Some(conic) => fitted(place, &drawn, conic, lengths),
-                // A plane along the axis meets the cylinder in straight lines only.
-                None => straight(place, lengths),
-            }
-        }
         [Support::Plane { .. }, Support::Plane { .. }] if place.same => {
             on_plane(place, &drawn, view, lengths)
         }
         [Support::Plane { .. }, Support::Plane { .. }] => straight(place, lengths),
-        [a @ Support::Cylinder { .. }, b @ Support::Cylinder { .. }] => {
-            let surfaces = if place.same { vec![a] } else { vec![a, b] };
+        [Support::Unknown, Support::Unknown] => free::free(place, &drawn, view, lengths),
+        [plane @ Support::Plane { .. }, Support::Unknown]
+        | [Support::Unknown, plane @ Support::Plane { .. }] => {
+            let place = Place {
+                supports: [plane; 2],
+                ..*place
+            };
+            on_plane(&place, &drawn, view, lengths)
+        }
+        [a, b] => {
+            if let Some(conic) = exact::conic(&a, &b, place.ends) {
+                return fitted(place, &drawn, conic, lengths);
+            }
+            if let (Support::Plane { .. }, Support::Cylinder { .. })
+            | (Support::Cylinder { .. }, Support::Plane { .. }) = (a, b)
+            {
+                // A plane along the axis meets the cylinder in straight lines only.
+                return straight(place, lengths);
+            }
+            let mut surfaces = vec![a, b];
+            surfaces.retain(|s| *s != Support::Unknown);
+            if place.same {
+                surfaces.truncate(1);
+            }
             let points = trace::trace(&drawn, view, &surfaces, place.ends);
-            between_cylinders(place, &drawn, points, lengths)
+            through(place, &drawn, points, lengths)
         }
     }
 }
@@ -130,11 +153,14 @@ fn on_plane(
         }
     }
     let points = trace::trace(drawn, view, &[plane], place.ends);
-    Ok(Curve3::Points { points })
+    Ok(Curve3::Points {
+        points,
+        tangents: None,
+    })
 }
 
-/// A curve between two cylinders, given by points: an ellipse if they lie in a plane.
-fn between_cylinders(
+/// A curve given by points: a circle or ellipse if they lie on one.
+fn through(
     place: &Place<'_>,
     drawn: &Drawn<'_>,
     points: Vec<DVec3>,
@@ -155,10 +181,17 @@ fn between_cylinders(
     if let Some((middle, normal, gap)) = fit_plane(&points)
         && gap <= lengths.snap
     {
-        let cut = Conic::cut(middle, normal, &place.supports[0]);
-        if let Some(Ok(curve)) = cut.map(|c| fitted(place, drawn, c.rounded(lengths.snap), lengths))
-        {
-            return Ok(curve);
+        let circle = exact::circle(&points, middle, normal, lengths.snap);
+        let cut = Conic::cut(middle, normal, &place.supports[0])
+            .or_else(|| Conic::cut(middle, normal, &place.supports[1]))
+            .map(|c| c.rounded(lengths.snap));
+        for conic in circle.into_iter().chain(cut) {
+            let on = |p: &DVec3| conic.point(conic.parameter(*p)).distance(*p) <= lengths.limit;
+            if points.iter().all(on)
+                && let Ok(curve) = fitted(place, drawn, conic, lengths)
+            {
+                return Ok(curve);
+            }
         }
     }
     let gap = drawn.gap(&points);
@@ -169,5 +202,22 @@ fn between_cylinders(
             gap,
         });
     }
-    Ok(Curve3::Points { points })
+    Ok(Curve3::Points {
+        tangents: tangents(&points, &place.supports),
+        points,
+    })
+}
+
+/// Tangents at both ends of a curve in which two surfaces meet; `None` where they touch.
+fn tangents(points: &[DVec3], supports: &[Support; 2]) -> Option<[DVec3; 2]> {
+    let tangent = |at: DVec3, along: DVec3| {
+        let across = supports[0].gradient(at).cross(supports[1].gradient(at));
+        let unit = across.normalize_or_zero();
+        let forwards = unit.dot(along.normalize_or_zero());
+        (across.length() > SLANT && forwards.abs() > 0.8).then(|| unit * forwards.signum())
+    };
+    match points {
+        [a, b, .., c, d] => Some([tangent(*a, *b - *a)?, tangent(*d, *d - *c)?]),
+        _ => None,
+    }
 }

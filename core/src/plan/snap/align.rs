@@ -17,6 +17,9 @@ pub(super) fn directions(groups: &mut [Group], axes: &[DVec3], tolerance: f64) -
     for g in order {
         let group = &mut groups[g];
         let old = group.support.direction();
+        if old == DVec3::ZERO {
+            continue;
+        }
         // Axes first, then other faces' directions, then the nearest ones normal to an axis.
         let normal_to_axis = axes.iter().map(|a| old.reject_from_normalized(*a));
         let mut candidates = known.iter().copied().chain(normal_to_axis);
@@ -46,21 +49,17 @@ fn turned(group: &Group, direction: DVec3) -> Support {
     let count = group.points.len().max(1) as f64;
     let middle = group.points.iter().sum::<DVec3>() / count;
     let old = group.support;
-    match old {
-        // The plane through the points' centroid.
-        Support::Plane { .. } if !group.points.is_empty() => {
-            old.with_origin(middle).with_direction(direction)
-        }
-        Support::Plane { .. } => old.with_direction(direction),
+    match old.axis() {
         // Turned about the point of the axis beside the points.
-        Support::Cylinder { origin, axis, .. } => {
-            let beside = origin + axis * axis.dot(middle - origin);
-            let pivot = if group.points.is_empty() {
-                origin
-            } else {
-                beside
-            };
-            old.with_origin(pivot).with_direction(direction)
+        Some((origin, axis)) => {
+            let along = axis.dot(middle - origin);
+            let along = if group.points.is_empty() { 0.0 } else { along };
+            let pivot = origin + axis * along;
+            old.with_origin(pivot - direction * along)
+                .with_direction(direction)
         }
+        // The plane through the points' centroid.
+        None if !group.points.is_empty() => old.with_origin(middle).with_direction(direction),
+        None => old.with_direction(direction),
     }
 }

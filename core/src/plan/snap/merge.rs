@@ -6,10 +6,10 @@ use crate::plan::support::Support;
 
 use super::{Group, LARGEST_TURN};
 
-/// Halves of one cylinder may differ by this share of the radius: they were lifted one by one.
+/// Halves of one surface may differ by this share of the radius: they were lifted one by one.
 const HALVES: f64 = 0.02;
 
-/// Joins cylinder faces that meet along a straight edge and are nearly the same.
+/// Joins faces of one curved surface that meet along an edge and are nearly the same.
 pub(super) fn halves(groups: Vec<Group>, smooth: &[[usize; 2]]) -> Vec<Group> {
     let mut root: Vec<usize> = (0..groups.len()).collect();
     let find = |root: &[usize], mut i: usize| {
@@ -31,26 +31,43 @@ pub(super) fn halves(groups: Vec<Group>, smooth: &[[usize; 2]]) -> Vec<Group> {
     parts.into_iter().filter_map(average).collect()
 }
 
-/// Whether two cylinders are the same to within [`HALVES`].
+/// Whether two surfaces are the same to within [`HALVES`].
 fn near(a: &Support, b: &Support) -> bool {
-    let (
-        Support::Cylinder {
-            origin: p,
-            axis: u,
-            radius: r,
-        },
-        Support::Cylinder {
-            origin: q,
-            axis: v,
-            radius: s,
-        },
-    ) = (*a, *b)
-    else {
-        return false;
-    };
-    (r - s).abs() <= HALVES * r.min(s)
-        && (q - p).reject_from_normalized(u).length() <= HALVES * r.min(s)
-        && u.cross(v).length() <= LARGEST_TURN
+    if a == b && !matches!(a, Support::Plane { .. } | Support::Unknown) {
+        return true;
+    }
+    let close = |x: f64, y: f64| (x - y).abs() <= HALVES * x.abs().min(y.abs());
+    let apart = a.origin().distance(b.origin());
+    let aligned = a.direction().cross(b.direction()).length() <= LARGEST_TURN;
+    match (*a, *b) {
+        (
+            Support::Cylinder {
+                origin: p,
+                axis: u,
+                radius: r,
+            },
+            Support::Cylinder {
+                origin: q,
+                radius: s,
+                ..
+            },
+        ) => {
+            let aside = (q - p).reject_from_normalized(u).length();
+            close(r, s) && aside <= HALVES * r.min(s) && aligned
+        }
+        (Support::Sphere { radius: r, .. }, Support::Sphere { radius: s, .. }) => {
+            close(r, s) && apart <= HALVES * r.min(s)
+        }
+        (
+            Support::Torus {
+                major: m, minor: r, ..
+            },
+            Support::Torus {
+                major: n, minor: s, ..
+            },
+        ) => close(m, n) && close(r, s) && apart <= HALVES * r.min(s) && aligned,
+        _ => false,
+    }
 }
 
 /// One group with the mean of the cylinders, weighted by the extent of their faces.
@@ -62,6 +79,16 @@ fn average(parts: Vec<Group>) -> Option<Group> {
         return Some(whole);
     }
     let first = whole.support;
+    if !matches!(first, Support::Cylinder { .. }) {
+        for part in parts {
+            // The larger part's surface is the surer one.
+            if part.extent > whole.extent {
+                whole.support = part.support;
+            }
+            whole.join(part);
+        }
+        return Some(whole);
+    }
     let (mut weight, mut place, mut direction, mut size) = (0.0, DVec3::ZERO, DVec3::ZERO, 0.0);
     for part in std::iter::once(&whole).chain(&parts) {
         if let Support::Cylinder {
@@ -120,77 +147,93 @@ fn same_direction(a: &Support, b: &Support) -> bool {
     a.direction().cross(b.direction()).length() < 1e-9
 }
 
-/// Gives cylinders the axis of a larger one that they share it with, and the radius of a larger
-/// one that is equal; returns how many changed.
-pub(super) fn cylinders(groups: &mut [Group], tolerance: f64) -> usize {
+/// Gives curved surfaces the axis of a larger one that they share it with, and the radii of a
+/// larger one of their kind that are equal; returns how many changed.
+pub(super) fn round(groups: &mut [Group], tolerance: f64) -> usize {
+    let curved = |s: &Support| !matches!(s, Support::Plane { .. } | Support::Unknown);
     let mut order: Vec<usize> = (0..groups.len())
-        .filter(|&g| matches!(groups[g].support, Support::Cylinder { .. }))
+        .filter(|&g| curved(&groups[g].support))
         .collect();
     order.sort_by(|&a, &b| groups[b].extent.total_cmp(&groups[a].extent));
     let mut changed = 0;
     for i in 1..order.len() {
         let old = groups[order[i]].support;
         for &model in &order[..i] {
-            let Support::Cylinder { radius: r, .. } = groups[model].support else {
-                continue;
-            };
             let model = groups[model].support;
-            let Support::Cylinder {
-                origin,
-                axis,
-                radius,
-            } = groups[order[i]].support
-            else {
-                continue;
-            };
-            let aside = (model.origin() - origin).reject_from_normalized(axis);
-            let coaxial = same_direction(&model, &old) && aside.length() <= tolerance;
-            groups[order[i]].support = Support::Cylinder {
-                origin: if coaxial {
-                    let d = model.direction();
-                    model.origin() + d * d.dot(origin - model.origin())
-                } else {
-                    origin
-                },
-                axis: if coaxial { model.direction() } else { axis },
-                radius: if (radius - r).abs() <= tolerance {
-                    r
-                } else {
-                    radius
-                },
-            };
+            let own = groups[order[i]].support;
+            groups[order[i]].support =
+                equal_radii(coaxial(own, &model, tolerance), &model, tolerance);
         }
         changed += usize::from(groups[order[i]].support != old);
     }
     changed
 }
 
-/// Joins cylinders with one axis and one radius.
-pub(super) fn equal_cylinders(groups: Vec<Group>) -> Vec<Group> {
+/// A surface moved onto the axis of another one, if it is within `tolerance` of it.
+fn coaxial(own: Support, model: &Support, tolerance: f64) -> Support {
+    let Some((origin, direction)) = model.axis() else {
+        return own;
+    };
+    let aside = (own.origin() - origin).reject_from_normalized(direction);
+    let turned = own.axis().is_some() && !same_direction(model, &own);
+    if turned || aside.length() > tolerance {
+        return own;
+    }
+    let way = if direction.dot(own.direction()) < 0.0 {
+        -direction
+    } else {
+        direction
+    };
+    own.with_origin(own.origin() - aside).with_direction(way)
+}
+
+/// A surface with the radii of another one of its kind that are equal within `tolerance`.
+fn equal_radii(mut own: Support, model: &Support, tolerance: f64) -> Support {
+    let snap = |x: &mut f64, y: f64| {
+        if (*x - y).abs() <= tolerance {
+            *x = y;
+        }
+    };
+    match (&mut own, *model) {
+        (Support::Cylinder { radius, .. }, Support::Cylinder { radius: r, .. })
+        | (Support::Sphere { radius, .. }, Support::Sphere { radius: r, .. }) => snap(radius, r),
+        (
+            Support::Torus { major, minor, .. },
+            Support::Torus {
+                major: m, minor: r, ..
+            },
+        ) => {
+            snap(minor, r);
+            snap(major, m);
+        }
+        _ => {}
+    }
+    own
+}
+
+/// Joins curved surfaces that are one.
+pub(super) fn equal(groups: Vec<Group>) -> Vec<Group> {
     let mut out: Vec<Group> = Vec::with_capacity(groups.len());
     for group in groups {
-        let twin = out
-            .iter_mut()
-            .find(|other| match (group.support, other.support) {
-                (
-                    Support::Cylinder { axis, radius, .. },
-                    Support::Cylinder {
-                        origin: q,
-                        radius: s,
-                        ..
-                    },
-                ) => {
-                    let aside = (q - group.support.origin()).reject_from_normalized(axis);
-                    radius == s
-                        && same_direction(&group.support, &other.support)
-                        && aside.length() <= 1e-9 * radius
-                }
-                _ => false,
-            });
+        let twin = out.iter_mut().find(|o| is_same(&o.support, &group.support));
         match twin {
             Some(other) => other.join(group),
             None => out.push(group),
         }
     }
     out
+}
+
+fn is_same(a: &Support, b: &Support) -> bool {
+    match (*a, *b) {
+        (Support::Plane { .. } | Support::Unknown, _) => false,
+        (Support::Cylinder { axis, radius, .. }, Support::Cylinder { radius: s, .. }) => {
+            let aside = (b.origin() - a.origin()).reject_from_normalized(axis);
+            radius == s && same_direction(a, b) && aside.length() <= 1e-9 * radius
+        }
+        (Support::Sphere { radius, .. }, Support::Sphere { radius: s, .. }) => {
+            radius == s && a.origin().distance(b.origin()) <= 1e-9 * radius
+        }
+        _ => a == b,
+    }
 }

@@ -1,11 +1,12 @@
 //! Snapping: from what was measured to what was meant.
 //!
 //! Faces get supports: surfaces that several faces may share. In turn
-//! 1. cylinder faces that meet along a straight edge, as the halves of a hole do, and differ by
-//!    little, become one cylinder,
+//! 1. faces that meet along an edge, as the halves of a hole do, and whose curved surfaces differ by
+//!    little, get one surface,
 //! 2. normals and axes turn to a dominant direction, to its normal plane, or to a direction that a
 //!    larger face has,
-//! 3. coplanar faces get one plane, coaxial cylinders one axis, equal cylinders one radius.
+//! 3. coplanar faces get one plane, coaxial surfaces one axis, equal cylinders, spheres and tori one
+//!    radius.
 //!
 //! Each step must leave the face's own points within the tolerance of its surface.
 
@@ -70,7 +71,7 @@ impl Group {
 
 /// Snaps the surfaces of all faces.
 ///
-/// `smooth` are pairs of faces that meet along a straight edge, `axes` the dominant directions
+/// `smooth` are pairs of faces that an outline may part, `axes` the dominant directions
 /// (unit, in the frame of the points), `tolerance` is a length.
 pub(super) fn snap(
     faces: &[Measured],
@@ -111,13 +112,13 @@ pub(super) fn snap(
             before - groups.len()
         ));
     }
-    let changed = merge::cylinders(&mut groups, tolerance);
+    let changed = merge::round(&mut groups, tolerance);
     if changed > 0 {
         notices.push(format!(
-            "{changed} cylinders were given the axis or radius of another"
+            "{changed} curved surfaces were given the axis or radius of another"
         ));
     }
-    groups = merge::equal_cylinders(groups);
+    groups = merge::equal(groups);
     let mut of_face = vec![0; faces.len()];
     for (g, group) in groups.iter().enumerate() {
         for &f in &group.faces {

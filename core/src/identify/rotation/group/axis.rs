@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use crate::drawing::{Curve2, Drawing};
 use crate::identify::Face;
-use crate::lift::{Pieces, circle_through};
+use crate::lift::{Camera, Pieces, circle_through};
 
 /// The line that a loop's circles are around.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -70,7 +70,7 @@ pub(super) fn axis_line(drawing: &Drawing, pieces: &Pieces, face: &Face) -> Opti
     }
     let v = drawing.edges[edges().next()?].v[0];
     pieces.axes.iter().enumerate().find_map(|(axis, &n)| {
-        let circle = circle_through(&corners, n)?;
+        let circle = circle_through(&corners, n, &Camera::Parallel)?;
         let close = circle.residual < 1e-3 * circle.radius;
         close.then(|| AxisLine {
             axis,

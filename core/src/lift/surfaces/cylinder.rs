@@ -1,12 +1,12 @@
-//! Surfaces of faces from lifted depths.
+//! Cylinders: axis, then radius and centre from the boundary seen along the axis.
 
-use glam::{DMat3, DVec2, DVec3};
+use glam::{DVec2, DVec3};
 
-use super::Surface;
-use super::circle::circle_fit;
-use super::sheet::Sheet;
-use super::solve::Solved;
-use crate::drawing::SurfaceKind;
+use super::evidence::vertex;
+use crate::lift::Surface;
+use crate::lift::circle::circle_fit;
+use crate::lift::heights::Heights;
+use crate::lift::sheet::Sheet;
 
 /// Largest distance, relative to the drawing's size, of a boundary point from a cylinder.
 const OFF_CYLINDER: f64 = 1e-3;
@@ -15,68 +15,19 @@ const OFF_CYLINDER: f64 = 1e-3;
 /// its points.
 const NARROW: f64 = 0.7;
 
-pub(super) fn surface(sheet: &Sheet<'_>, solved: &Solved, face: usize) -> Surface {
-    match sheet.faces[face].kind {
-        SurfaceKind::Plane => plane(sheet, solved, face).unwrap_or(Surface::Unknown),
-        SurfaceKind::Cylinder => cylinder(sheet, solved, face).unwrap_or(Surface::Unknown),
-        _ => Surface::Unknown,
-    }
-}
-
-fn vertex(sheet: &Sheet<'_>, solved: &Solved, v: usize) -> DVec3 {
-    sheet.place(sheet.drawing.vertices[v], solved.height(v))
-}
-
-fn plane(sheet: &Sheet<'_>, solved: &Solved, face: usize) -> Option<Surface> {
-    if let Some([a, b, c]) = solved.plane(face) {
-        return Some(Surface::Plane {
-            origin: sheet.place(sheet.middles[face], -c),
-            normal: sheet
-                .camera()
-                .normal([a, b, c], sheet.middles[face])
-                .normalize(),
-        });
-    }
-    let points: Vec<DVec3> = sheet.corners[face]
-        .iter()
-        .map(|&v| vertex(sheet, solved, v))
-        .collect();
-    let (origin, normal) = best_plane(&points)?;
-    Some(Surface::Plane { origin, normal })
-}
-
-/// Plane through the mean of points, normal to the direction of their smallest spread; `None` if
-/// they lie on a line.
-fn best_plane(points: &[DVec3]) -> Option<(DVec3, DVec3)> {
-    let origin = points.iter().sum::<DVec3>() / points.len() as f64;
-    let mut spread = DMat3::ZERO;
-    for p in points {
-        let d = *p - origin;
-        spread += DMat3::from_cols(d * d.x, d * d.y, d * d.z);
-    }
-    // The adjugate of a matrix of rank two is the projector on its null vector.
-    let (x, y, z) = (spread.x_axis, spread.y_axis, spread.z_axis);
-    let rows = [y.cross(z), z.cross(x), x.cross(y)];
-    let longest = rows
-        .into_iter()
-        .max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()))?;
-    let scale = x.x + y.y + z.z;
-    (longest.length() > 1e-8 * scale * scale).then(|| (origin, longest.normalize()))
-}
-
 /// Axis, then radius and centre from the boundary seen along the axis.
-fn cylinder(sheet: &Sheet<'_>, solved: &Solved, face: usize) -> Option<Surface> {
-    let axis = cylinder_axis(sheet, solved, face)?;
+pub(super) fn cylinder(sheet: &Sheet<'_>, heights: &Heights, face: usize) -> Option<Surface> {
+    let axis = cylinder_axis(sheet, heights, face)?;
     let u = axis.any_orthonormal_vector();
     let w = axis.cross(u);
-    let boundary = boundary_points(sheet, solved, face);
+    let boundary = boundary_points(sheet, heights, face);
     let flat: Vec<DVec2> = boundary
         .iter()
         .map(|p| DVec2::new(p.dot(u), p.dot(w)))
         .collect();
     let through = circle_fit(flat.iter().copied());
     let by_outline = outlines(sheet, face).filter_map(|v| {
-        let p = vertex(sheet, solved, v);
+        let p = vertex(sheet, heights, v);
         // On an outline the radius is at right angles to the view.
         let (_, ray) = sheet.camera().ray(sheet.drawing.vertices[v]);
         let side = axis.cross(ray).try_normalize()?;
@@ -106,7 +57,7 @@ fn cylinder(sheet: &Sheet<'_>, solved: &Solved, face: usize) -> Option<Surface> 
 }
 
 /// Direction of the straight edges of a cylinder, else the normal of a circle that bounds it.
-fn cylinder_axis(sheet: &Sheet<'_>, solved: &Solved, face: usize) -> Option<DVec3> {
+fn cylinder_axis(sheet: &Sheet<'_>, heights: &Heights, face: usize) -> Option<DVec3> {
     let edges = sheet.edges_of(face);
     let known = edges.iter().find_map(|&e| sheet.edge_axis[e]);
     let around = edges.iter().find_map(|&e| sheet.circles[e].map(|c| c.0));
@@ -115,7 +66,7 @@ fn cylinder_axis(sheet: &Sheet<'_>, solved: &Solved, face: usize) -> Option<DVec
     }
     let mut sum = DVec3::ZERO;
     for &e in edges.iter().filter(|&&e| sheet.is_straight(e)) {
-        let [a, b] = sheet.drawing.edges[e].v.map(|v| vertex(sheet, solved, v));
+        let [a, b] = sheet.drawing.edges[e].v.map(|v| vertex(sheet, heights, v));
         let d = b - a;
         sum += if d.dot(sum) < 0.0 { -d } else { d };
     }
@@ -123,10 +74,10 @@ fn cylinder_axis(sheet: &Sheet<'_>, solved: &Solved, face: usize) -> Option<DVec
 }
 
 /// Vertices of the boundary, and the points of its arcs that lie in known planes.
-fn boundary_points(sheet: &Sheet<'_>, solved: &Solved, face: usize) -> Vec<DVec3> {
+fn boundary_points(sheet: &Sheet<'_>, heights: &Heights, face: usize) -> Vec<DVec3> {
     let mut points: Vec<DVec3> = sheet.corners[face]
         .iter()
-        .map(|&v| vertex(sheet, solved, v))
+        .map(|&v| vertex(sheet, heights, v))
         .collect();
     for &e in sheet.edges_of(face) {
         if sheet.is_straight(e) {
@@ -134,11 +85,11 @@ fn boundary_points(sheet: &Sheet<'_>, solved: &Solved, face: usize) -> Vec<DVec3
         }
         let edge = &sheet.drawing.edges[e];
         let inner = edge.points.get(1..edge.points.len() - 1).unwrap_or(&[]);
-        let start = vertex(sheet, solved, edge.v[0]);
+        let start = vertex(sheet, heights, edge.v[0]);
         let normal = match sheet.circles[e] {
             Some((k, _)) => Some(sheet.axis(k)),
             None => sheet.neighbours(e).iter().find_map(|&f| {
-                let plane = solved.plane(f)?;
+                let plane = heights.plane(f)?;
                 Some(sheet.camera().normal(plane, sheet.middles[f]))
             }),
         };

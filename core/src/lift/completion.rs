@@ -1,0 +1,123 @@
+//! Loose parts of a drawing, tied by the surfaces that the other depths fix.
+//!
+//! A vertex on a known cylinder, cone, sphere or torus lies where its line of sight meets the
+//! surface: at two depths or four, of which the vertices of one loose part agree on one. A vertex
+//! of outlines only lies where its line of sight touches the surface.
+
+use glam::DVec3;
+
+use super::Surface;
+use super::heights::Heights;
+use super::ring_torus::touches;
+use super::sheet::Sheet;
+use super::surfaces::surfaces;
+
+/// Shifts of a part that differ by less than this share of the drawing's size agree.
+const AGREE: f64 = 1e-4;
+
+/// A line of sight at a smaller angle to the surface (its sine) does not tell the depth.
+const GRAZING: f64 = 0.05;
+
+/// A depth that a surface gives.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Tie {
+    pub(super) vertex: usize,
+    pub(super) depth: f64,
+    /// Expected error.
+    pub(super) error: f64,
+    /// The face whose surface it is.
+    pub(super) face: usize,
+}
+
+/// Ties for those of the loose groups that known surfaces place.
+pub(super) fn ties(sheet: &Sheet<'_>, heights: &Heights, groups: &[Vec<usize>]) -> Vec<Tie> {
+    let surfaces = surfaces(sheet, heights);
+    groups
+        .iter()
+        .filter_map(|group| tie(sheet, heights, &surfaces, group))
+        .collect()
+}
+
+/// A shift of a whole group in depth that one of its vertices asks for.
+struct Shift {
+    by: f64,
+    tie: Tie,
+}
+
+fn tie(sheet: &Sheet<'_>, heights: &Heights, surfaces: &[Surface], group: &[usize]) -> Option<Tie> {
+    let mut asked: Vec<Vec<Shift>> = Vec::new();
+    for &vertex in group {
+        for (face, surface) in surfaces.iter().enumerate() {
+            let round = !matches!(surface, Surface::Plane { .. } | Surface::Unknown);
+            if round && sheet.corners[face].binary_search(&vertex).is_ok() {
+                let found = depths_on(sheet, surface, vertex, face);
+                let shift = |tie: Tie| Shift {
+                    by: tie.depth - heights.of(vertex),
+                    tie,
+                };
+                asked.push(found.into_iter().map(shift).collect());
+            }
+        }
+    }
+    // The shift that most of them agree on; with one vertex, one that is the only one.
+    let near = AGREE * sheet.size;
+    let support = |by: f64| {
+        let fits = |list: &&Vec<Shift>| list.iter().any(|s| (s.by - by).abs() < near + s.tie.error);
+        asked.iter().filter(fits).count()
+    };
+    let all: Vec<&Shift> = asked.iter().flatten().collect();
+    let best = all.iter().max_by(|a, b| {
+        let (s, t) = (support(a.by), support(b.by));
+        s.cmp(&t).then(b.tie.error.total_cmp(&a.tie.error))
+    })?;
+    let most = support(best.by);
+    let rival = all
+        .iter()
+        .any(|s| (s.by - best.by).abs() > 2.0 * near + s.tie.error && support(s.by) == most);
+    (!rival).then_some(best.tie)
+}
+
+/// Heights at which a vertex may lie on a surface.
+fn depths_on(sheet: &Sheet<'_>, surface: &Surface, vertex: usize, face: usize) -> Vec<Tie> {
+    let from = sheet.drawing.vertices[vertex].extend(0.0);
+    let precision = sheet.directions.precision;
+    let inside = |e: &usize| {
+        let faces = sheet.neighbours(*e);
+        faces.len() == 2
+            && faces
+                .iter()
+                .all(|&f| sheet.faces[f].kind == sheet.faces[face].kind)
+            && sheet.circles[*e].is_none()
+    };
+    let at = sheet.edges_at(vertex);
+    let outline = !at.is_empty() && at.iter().all(inside);
+    if outline {
+        let found = match *surface {
+            Surface::Sphere { center, .. } => vec![center.z],
+            Surface::Torus { .. } => touches(surface, from, DVec3::Z, 1e-3 * sheet.size),
+            _ => Vec::new(),
+        };
+        return found
+            .into_iter()
+            .map(|depth| Tie {
+                vertex,
+                depth,
+                error: 10.0 * precision,
+                face,
+            })
+            .collect();
+    }
+    surface
+        .crossings(from, DVec3::Z)
+        .into_iter()
+        .filter_map(|depth| {
+            let slope = surface.gradient(from.with_z(depth)).z.abs();
+            (slope > GRAZING).then(|| Tie {
+                vertex,
+                depth,
+                error: 4.0 * precision / slope,
+                face,
+            })
+        })
+        .collect()
+}

@@ -1,0 +1,90 @@
+//! How well a surface agrees with what is known of its boundary.
+
+use glam::DVec3;
+
+use super::evidence::Evidence;
+use super::refine::refined;
+use crate::lift::Surface;
+use crate::lift::ring_torus::touching_gap;
+
+/// A boundary where the surface does not go on smoothly into its neighbour counts as much as this
+/// distance, relative to the drawing's size: it decides between surfaces that fit alike.
+const KINK: f64 = 1e-6;
+
+/// Candidates better than this many times the best are refined.
+const RIVALS: usize = 4;
+
+/// The candidate that agrees best, if it does within `tolerance`, a length.
+pub(super) fn best(
+    evidence: &Evidence,
+    candidates: Vec<Surface>,
+    tolerance: f64,
+) -> Option<Surface> {
+    let mut judged: Vec<(f64, Surface)> = candidates
+        .into_iter()
+        .map(|surface| (misfit(evidence, &surface), surface))
+        .filter(|(off, _)| *off < 0.05 * evidence.size)
+        .collect();
+    judged.sort_by(|a, b| a.0.total_cmp(&b.0));
+    judged.truncate(RIVALS);
+    judged
+        .into_iter()
+        .map(|(off, surface)| {
+            let better = refined(evidence, surface);
+            let new = misfit(evidence, &better);
+            if new < off {
+                (new, better)
+            } else {
+                (off, surface)
+            }
+        })
+        .filter(|(off, _)| *off <= tolerance)
+        .min_by(|a, b| {
+            let cost = |(off, surface): &(f64, Surface)| off + kinks(evidence, surface);
+            cost(a).total_cmp(&cost(b))
+        })
+        .map(|(_, surface)| surface)
+}
+
+/// Residuals of a surface: distances of known points, and of lines of sight that are to touch it.
+pub(super) fn residuals(evidence: &Evidence, surface: &Surface, out: &mut Vec<f64>) {
+    out.clear();
+    out.extend(evidence.points().map(|p| surface.distance(p)));
+    let sight = |i: usize| evidence.outlines[i].extend(0.0);
+    match *surface {
+        Surface::Torus { .. } => {
+            let all = 0..evidence.outlines.len();
+            out.extend(all.map(|i| touching_gap(surface, sight(i), DVec3::Z)));
+        }
+        Surface::Sphere { center, radius } => {
+            let off = |p: &glam::DVec2| p.distance(center.truncate()) - radius;
+            out.extend(evidence.outlines.iter().map(off));
+        }
+        // The outlines of others are straight, and their ends say it all.
+        _ => {}
+    }
+}
+
+/// Largest residual.
+pub(super) fn misfit(evidence: &Evidence, surface: &Surface) -> f64 {
+    let mut all = Vec::new();
+    residuals(evidence, surface, &mut all);
+    let worst = |m: f64, r: &f64| {
+        if r.is_nan() {
+            f64::INFINITY
+        } else {
+            m.max(r.abs())
+        }
+    };
+    all.iter().fold(0.0, worst)
+}
+
+/// What boundaries cost where the surface does not touch its neighbour.
+fn kinks(evidence: &Evidence, surface: &Surface) -> f64 {
+    let bent = |b: &&super::evidence::Bound| {
+        let p = b.points[b.points.len() / 2];
+        let (g, h) = (surface.gradient(p), b.beside.gradient(p));
+        h != DVec3::ZERO && g.cross(h).length() > 0.01
+    };
+    evidence.bounds.iter().filter(bent).count() as f64 * KINK * evidence.size
+}

@@ -1,0 +1,103 @@
+//! Cones and tori around a known axis, from the profile: distance from the axis over height.
+
+use glam::DVec2;
+
+use super::axes::Axis;
+use super::evidence::Evidence;
+use crate::lift::Surface;
+use crate::lift::circle::circle_fit;
+
+/// The cone around an axis: the best line through the profile.
+pub(super) fn cone(evidence: &Evidence, axis: &Axis) -> Option<Surface> {
+    let points: Vec<DVec2> = evidence.points().map(|p| axis.profile(p).into()).collect();
+    if points.len() < 2 {
+        return None;
+    }
+    let middle = points.iter().sum::<DVec2>() / points.len() as f64;
+    let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
+    for p in &points {
+        let d = *p - middle;
+        xx += d.x * d.x;
+        xy += d.x * d.y;
+        yy += d.y * d.y;
+    }
+    // Direction of the largest spread, towards growing radius.
+    let along = DVec2::from_angle(0.5 * (2.0 * xy).atan2(xx - yy));
+    let along = if along.x < 0.0 { -along } else { along };
+    if along.x < 1e-4 || along.y.abs() < 1e-4 {
+        return None;
+    }
+    let apex = middle.y - middle.x * along.y / along.x;
+    let up = along.y.signum();
+    Some(Surface::Cone {
+        apex: axis.origin + axis.direction * apex,
+        axis: axis.direction * up,
+        angle: along.x.atan2(along.y.abs()),
+    })
+}
+
+/// Tori around an axis: the circle through the profile's points if they fix it; else through two of
+/// them with the normal at one, which an outline or a neighbour that is touched there gives.
+pub(super) fn tori(evidence: &Evidence, axis: &Axis) -> Vec<Surface> {
+    let points: Vec<DVec2> = evidence.points().map(|p| axis.profile(p).into()).collect();
+    let mut circles: Vec<(DVec2, f64)> = Vec::new();
+    if let Some((center, radius, gain)) = circle_fit(points.iter().copied())
+        && gain < 1e3
+    {
+        circles.push((center, radius));
+    }
+    for (at, normal) in normals(evidence, axis) {
+        let far = points
+            .iter()
+            .max_by(|a, b| a.distance(at).total_cmp(&b.distance(at)));
+        if let Some(far) = far {
+            // |at + t n - far| = |t|
+            let d = *far - at;
+            let t = d.length_squared() / (2.0 * normal.dot(d));
+            circles.push((at + normal * t, t.abs()));
+        }
+    }
+    circles
+        .into_iter()
+        .filter(|(center, minor)| {
+            minor.is_finite() && *minor > 1e-5 * evidence.size && center.x > 1e-5 * evidence.size
+        })
+        .map(|(center, minor)| Surface::Torus {
+            center: axis.origin + axis.direction * center.y,
+            axis: axis.direction,
+            major: center.x,
+            minor,
+        })
+        .collect()
+}
+
+/// Points of the profile with the surface's unit normal there, up to its sign.
+fn normals(evidence: &Evidence, axis: &Axis) -> Vec<(DVec2, DVec2)> {
+    let mut found = Vec::new();
+    for p in &evidence.outline_ends {
+        if let Some(out) = axis.outwards(*p) {
+            // In the plane of out and axis, and at right angles to the view.
+            let normal = DVec2::new(axis.direction.z, -out.z).normalize_or_zero();
+            found.push((DVec2::from(axis.profile(*p)), normal));
+        }
+    }
+    for bound in &evidence.bounds {
+        for p in [
+            bound.points.first(),
+            bound.points.get(bound.points.len() / 2),
+        ]
+        .into_iter()
+        .flatten()
+        {
+            let gradient = bound.beside.gradient(*p);
+            if let Some(out) = axis.outwards(*p) {
+                let normal = DVec2::new(gradient.dot(out), gradient.dot(axis.direction));
+                // A neighbour across the profile is not touched.
+                if normal.length() > 0.99 {
+                    found.push((DVec2::from(axis.profile(*p)), normal.normalize()));
+                }
+            }
+        }
+    }
+    found
+}

@@ -1,0 +1,131 @@
+//! Refining a surface on all of its evidence at once.
+
+use glam::DVec3;
+
+use super::evidence::Evidence;
+use super::judge::residuals;
+use crate::lift::Surface;
+
+/// Steps of refinement.
+const STEPS: usize = 6;
+
+/// Parameters of a surface: shifts and turns from where it is, then its lengths.
+fn count(surface: &Surface) -> usize {
+    match surface {
+        Surface::Sphere { .. } => 4,
+        Surface::Cone { .. } => 6,
+        Surface::Torus { .. } => 7,
+        _ => 0,
+    }
+}
+
+/// The surface with its parameters changed, lengths in units of `size`.
+fn changed(surface: &Surface, x: &[f64], size: f64) -> Surface {
+    let shift = DVec3::new(x[0], x[1], x[2]) * size;
+    let turned = |axis: DVec3, a: f64, b: f64| {
+        let (u, v) = axis.any_orthonormal_pair();
+        (axis + u * a + v * b).normalize()
+    };
+    match *surface {
+        Surface::Sphere { center, radius } => Surface::Sphere {
+            center: center + shift,
+            radius: radius + x[3] * size,
+        },
+        Surface::Cone { apex, axis, angle } => Surface::Cone {
+            apex: apex + shift,
+            axis: turned(axis, x[4], x[5]),
+            angle: angle + x[3],
+        },
+        Surface::Torus {
+            center,
+            axis,
+            major,
+            minor,
+        } => Surface::Torus {
+            center: center + shift,
+            axis: turned(axis, x[5], x[6]),
+            major: major + x[3] * size,
+            minor: minor + x[4] * size,
+        },
+        _ => *surface,
+    }
+}
+
+/// The surface with the least squares of its residuals near the given one (Levenberg 1944, with
+/// numerical slopes).
+pub(super) fn refined(evidence: &Evidence, start: Surface) -> Surface {
+    const SLOPE: f64 = 1e-7;
+    let n = count(&start);
+    if n == 0 {
+        return start;
+    }
+    let mut surface = start;
+    let (mut now, mut then) = (Vec::new(), Vec::new());
+    for _ in 0..STEPS {
+        residuals(evidence, &surface, &mut now);
+        if now.iter().any(|r| !r.is_finite()) {
+            return start;
+        }
+        let mut columns = Vec::with_capacity(n);
+        for k in 0..n {
+            let mut x = vec![0.0; n.max(3)];
+            x[k] = SLOPE;
+            residuals(evidence, &changed(&surface, &x, evidence.size), &mut then);
+            columns.push(
+                now.iter()
+                    .zip(&then)
+                    .map(|(a, b)| (b - a) / SLOPE)
+                    .collect::<Vec<_>>(),
+            );
+        }
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
+        let mut matrix: Vec<Vec<f64>> = (0..n)
+            .map(|i| (0..n).map(|j| dot(&columns[i], &columns[j])).collect())
+            .collect();
+        let trace: f64 = (0..n).map(|i| matrix[i][i]).sum();
+        // What the evidence leaves open stays.
+        for (i, row) in matrix.iter_mut().enumerate() {
+            row[i] += 1e-9 * trace;
+        }
+        let right = (0..n).map(|i| -dot(&columns[i], &now)).collect();
+        let Some(x) = solve(matrix, right) else {
+            return surface;
+        };
+        let largest = x.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+        if !largest.is_finite() || largest > 0.1 {
+            return surface;
+        }
+        surface = changed(&surface, &x, evidence.size);
+        if largest < 1e-12 {
+            break;
+        }
+    }
+    surface
+}
+
+/// Solution of a small symmetric system (Gaussian elimination with pivots); `None` if singular.
+pub(super) fn solve(mut matrix: Vec<Vec<f64>>, mut right: Vec<f64>) -> Option<Vec<f64>> {
+    let n = right.len();
+    let trace: f64 = (0..n).map(|i| matrix[i][i].abs()).sum();
+    for k in 0..n {
+        let pivot = (k..n).max_by(|&a, &b| matrix[a][k].abs().total_cmp(&matrix[b][k].abs()))?;
+        if matrix[pivot][k].abs() <= 1e-13 * trace {
+            return None;
+        }
+        matrix.swap(k, pivot);
+        right.swap(k, pivot);
+        for i in k + 1..n {
+            let share = matrix[i][k] / matrix[k][k];
+            for j in k..n {
+                matrix[i][j] -= share * matrix[k][j];
+            }
+            right[i] -= share * right[k];
+        }
+    }
+    let mut x = vec![0.0; n];
+    for k in (0..n).rev() {
+        let rest: f64 = (k + 1..n).map(|j| matrix[k][j] * x[j]).sum();
+        x[k] = (right[k] - rest) / matrix[k][k];
+    }
+    Some(x)
+}

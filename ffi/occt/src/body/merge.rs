@@ -1,0 +1,155 @@
+//! Silhouettes taken out: faces that they part become one, and so do edges that they cut.
+
+use std::collections::BTreeMap;
+
+use faceformer::drawing::CoEdge;
+use faceformer::plan::Plan;
+use glam::DVec3;
+
+use super::curve::joined;
+use super::{Body, BodyEdge, BodyFace};
+use crate::groups::Groups;
+
+/// The plan without silhouettes.
+pub(super) fn merged(plan: &Plan) -> Body {
+    let silhouette = |e: usize| plan.edges[e].silhouette;
+    let loops = plan.faces.iter().map(|f| &f.loops);
+    let groups = Groups::new(loops, plan.edges.len(), silhouette).labels();
+    let next = successors(plan);
+    // The walk goes on past a silhouette in the face on its other side.
+    let after = |coedge: CoEdge| -> Option<CoEdge> {
+        let mut found = *next.get(&coedge.signed())?;
+        for _ in 0..plan.edges.len() {
+            if !silhouette(found.edge()) {
+                return Some(found);
+            }
+            found = *next.get(&found.mate().signed())?;
+        }
+        None
+    };
+    let count = groups.iter().max().map_or(0, |m| *m as usize + 1);
+    let mut faces: Vec<Option<BodyFace>> = vec![None; count];
+    let mut seen = vec![[false; 2]; plan.edges.len()];
+    for (f, face) in plan.faces.iter().enumerate() {
+        let merged = faces[groups[f] as usize].get_or_insert_with(|| BodyFace {
+            surface: face.surface.clone(),
+            axis: DVec3::Z,
+            loops: Vec::new(),
+            source: f,
+        });
+        for &start in face.loops.iter().flatten() {
+            if silhouette(start.edge()) || seen[start.edge()][usize::from(start.is_reversed())] {
+                continue;
+            }
+            let mut walk = Vec::new();
+            let mut at = Some(start);
+            while let Some(coedge) = at {
+                let mark = &mut seen[coedge.edge()][usize::from(coedge.is_reversed())];
+                if *mark {
+                    break;
+                }
+                *mark = true;
+                walk.push(coedge);
+                at = after(coedge);
+            }
+            merged.loops.push(walk);
+        }
+    }
+    let edges = plan.edges.iter().enumerate();
+    let mut body = Body {
+        vertices: plan.vertices.clone(),
+        edges: edges
+            .map(|(e, edge)| BodyEdge {
+                v: edge.v,
+                curve: edge.curve.clone(),
+                source: e,
+            })
+            .collect(),
+        faces: faces.into_iter().flatten().collect(),
+    };
+    dissolve(plan, &mut body);
+    compact(&mut body);
+    body
+}
+
+/// The co-edge after each in its loop, by signed number.
+fn successors(plan: &Plan) -> BTreeMap<i64, CoEdge> {
+    let mut next = BTreeMap::new();
+    for walk in plan.faces.iter().flat_map(|f| &f.loops) {
+        for (i, coedge) in walk.iter().enumerate() {
+            next.insert(coedge.signed(), walk[(i + 1) % walk.len()]);
+        }
+    }
+    next
+}
+
+/// Joins two edges of one curve where only a silhouette ended.
+fn dissolve(plan: &Plan, body: &mut Body) {
+    let size = plan
+        .vertices
+        .iter()
+        .fold(0.0f64, |m, p| m.max(p.distance(plan.vertices[0])));
+    for v in 0..plan.vertices.len() {
+        let cut = plan.edges.iter().any(|e| e.silhouette && e.v.contains(&v));
+        if !cut {
+            continue;
+        }
+        let used = |e: &usize| {
+            body.faces
+                .iter()
+                .flat_map(|f| &f.loops)
+                .flatten()
+                .any(|c| c.edge() == *e)
+        };
+        let at: Vec<usize> = (0..body.edges.len())
+            .filter(|&e| !plan.edges[e].silhouette && body.edges[e].v.contains(&v))
+            .filter(used)
+            .collect();
+        let [first, second] = at[..] else {
+            continue;
+        };
+        // The first one towards the vertex, the second one away from it.
+        let ins = CoEdge::new(first, body.edges[first].v[1] != v);
+        let out = CoEdge::new(second, body.edges[second].v[0] != v);
+        let Some(whole) = joined(body, ins, out, 1e-5 * size) else {
+            continue;
+        };
+        body.edges[first] = whole;
+        for walk in body.faces.iter_mut().flat_map(|f| &mut f.loops) {
+            walk.retain(|c| c.edge() != second);
+            for coedge in walk.iter_mut().filter(|c| c.edge() == first) {
+                // The joined edge runs as the first one did towards the vertex.
+                *coedge = CoEdge::new(first, coedge.is_reversed() != ins.is_reversed());
+            }
+        }
+    }
+}
+
+/// Drops edges and vertices that no face uses.
+fn compact(body: &mut Body) {
+    let mut used = vec![false; body.edges.len()];
+    for coedge in body.faces.iter().flat_map(|f| &f.loops).flatten() {
+        used[coedge.edge()] = true;
+    }
+    let mut edge_at = vec![0; body.edges.len()];
+    let mut vertex_at: BTreeMap<usize, usize> = BTreeMap::new();
+    let mut edges = Vec::new();
+    let mut vertices = Vec::new();
+    for (e, mut edge) in std::mem::take(&mut body.edges).into_iter().enumerate() {
+        if used[e] {
+            edge_at[e] = edges.len();
+            edge.v = edge.v.map(|v| {
+                *vertex_at.entry(v).or_insert_with(|| {
+                    vertices.push(body.vertices[v]);
+                    vertices.len() - 1
+                })
+            });
+            edges.push(edge);
+        }
+    }
+    for coedge in body.faces.iter_mut().flat_map(|f| &mut f.loops).flatten() {
+        *coedge = CoEdge::new(edge_at[coedge.edge()], coedge.is_reversed());
+    }
+    body.edges = edges;
+    body.vertices = vertices;
+}
