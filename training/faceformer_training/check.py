@@ -30,6 +30,8 @@ ON_PLANE = 2e-3
 CHORD = 3e-3
 """Largest sagitta between neighbouring pieces of a curve."""
 LEAST_AREA = 1e-6
+SIGHT_ERROR = 1e-4
+"""How far below zero the mean thickness may be, by rounding on lines along edges."""
 FAN_ERROR = 0.4
 """How far below zero the estimated volume may be where no line of sight meets plane faces only:
 the bulge of curved faces is unknown here."""
@@ -256,7 +258,9 @@ def _faces(drawing: Drawing, truth: Truth) -> Iterator[Fault]:
     if abs(total) > 1e-4:
         yield Fault("areas", f"front and back differ by {total:.2g}")
     thickness = flat_thickness(drawing, truth)
-    if (thickness is None and volume < -FAN_ERROR) or (thickness is not None and thickness < 0):
+    if (thickness is None and volume < -FAN_ERROR) or (
+        thickness is not None and thickness < -SIGHT_ERROR
+    ):
         yield Fault("inside out", f"volume about {volume:.2g}, thickness {thickness}")
 
 

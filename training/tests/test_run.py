@@ -9,8 +9,9 @@ from OCP.BinTools import BinTools
 from OCP.BRepPrimAPI import BRepPrimAPI_MakeBox, BRepPrimAPI_MakeCylinder, BRepPrimAPI_MakeSphere
 from OCP.gp import gp_Pnt
 
-from faceformer_training.check import check_drawing
+from faceformer_training.check import Fault, check_drawing
 from faceformer_training.drawing import read_drawings
+from faceformer_training.project import work
 from faceformer_training.project.__main__ import _identity, main, parse_shard, parse_views
 from faceformer_training.project.output import OtherRunError, RunOutput
 from faceformer_training.project.pool import LocalPool
@@ -117,6 +118,14 @@ def test_runs_are_repeatable_and_seeds_differ(archive):
         for s in (0, 0, 1)
     )
     assert a == b != c
+
+
+def test_a_drawing_that_the_checker_refuses_is_counted(archive, monkeypatch):
+    monkeypatch.setattr(work, "check_drawing", lambda _: [Fault("not flat", "face 3")])
+    plan = Plan((("ortho", 1),))
+    first = results_of(archive, plan)[0][0]
+    assert first.outcome == "check" and first.drawings == []
+    assert first.detail == "check: not flat: face 3"
 
 
 def test_options_are_parsed():

@@ -46,6 +46,7 @@ REASONS = {
     "loop": "the loops of the drawing do not close or do not use each co-edge once",
     "euler": "the drawing's Euler characteristic is not the solid's",
     "orientation": "a face's drawn orientation contradicts its normal",
+    "check": "the independent checker found a fault in the drawing",
     "edge-end": "an edge ends away from its vertex",
     "view-edge-on": "in every view tried a face is seen edge-on",
     "view-coincident": "in every view tried two vertices coincide",

@@ -11,7 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from .errors import ProjectionError
+from ..check import check_drawing
+from .errors import ProjectionError, require
 from .options import ProjectOptions
 from .read import Item, ItemReader
 from .signature import family_key, shape_key, views_key
@@ -116,6 +117,8 @@ def _draw_view(result: SolidResult, solid: PreparedSolid, kind: str, copy: int, 
     rng = np.random.default_rng([plan.seed, salt])
     try:
         drawing = solid.draw_generic(kind, rng, f"{result.name}#{kind[0]}{copy}", result.source)
+        faults = check_drawing(drawing)
+        require(not faults, "check", "; ".join(map(str, faults[:3])))
     except ProjectionError as error:
         result.refused[kind] = error.code
         result.detail = result.detail or str(error)
