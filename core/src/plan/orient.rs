@@ -38,18 +38,20 @@ struct Draft {
 /// What is left is one choice for each shell: its volume is positive, or negative if it is a void
 /// inside another shell.
 ///
-/// `points` gives the points along a co-edge without the last one.
+/// `points` gives the points along a co-edge without the last one, `silhouette` tells which edges
+/// are outlines, along which a face is seen edge-on.
 pub(super) fn orient(
     loops: &[Vec<Vec<CoEdge>>],
     supports: &[Support],
     uses: &[[Use; 2]],
     view: &View,
+    silhouette: impl Fn(usize) -> bool,
     points: impl Fn(CoEdge) -> Vec<DVec3>,
 ) -> Result<Vec<Oriented>, PlanError> {
     let drafts: Vec<Draft> = loops
         .iter()
         .zip(supports)
-        .map(|(loops, support)| draft(loops, support, view, &points))
+        .map(|(loops, support)| draft(loops, support, view, &silhouette, &points))
         .collect();
     let shells = propagate(&drafts, uses)?;
     let mut flips: Vec<bool> = vec![false; drafts.len()];
@@ -82,6 +84,7 @@ fn draft(
     loops: &[Vec<CoEdge>],
     support: &Support,
     view: &View,
+    silhouette: &impl Fn(usize) -> bool,
     points: &impl Fn(CoEdge) -> Vec<DVec3>,
 ) -> Draft {
     let polylines: Vec<Vec<DVec3>> = loops
@@ -90,14 +93,19 @@ fn draft(
         .collect();
     let all = || polylines.iter().flatten();
     // A surface that says nothing is taken to have its gradient towards the viewer.
-    let facing: f64 = all()
-        .map(|p| support.gradient(*p).dot(view.toward(*p)))
-        .sum();
-    let front = facing >= 0.0;
+    let bounds = loops.iter().flatten().filter(|c| !silhouette(c.edge()));
+    let facing: Option<f64> = bounds
+        .map(|c| {
+            let seen = |p: &DVec3| support.gradient(*p).dot(view.toward(*p));
+            points(*c).iter().map(seen).sum::<f64>()
+        })
+        .reduce(|a, b| a + b);
     let areas: Vec<f64> = polylines.iter().map(|p| drawn_area(p, view)).collect();
     let outer = (0..loops.len())
         .max_by(|&a, &b| areas[a].abs().total_cmp(&areas[b].abs()))
         .unwrap_or(0);
+    // Half of a whole sphere or ring is taken as it is given.
+    let front = facing.map_or(areas[outer] > 0.0, |f| f >= 0.0);
     let turned: Vec<bool> = (0..loops.len())
         .map(|i| (areas[i] > 0.0) != ((i == outer) == front))
         .collect();

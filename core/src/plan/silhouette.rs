@@ -16,7 +16,7 @@ const ACROSS: f64 = 0.05;
 const CURVED: f64 = 0.2;
 
 /// Sine of the angle within which edges go on smoothly into each other in the drawing.
-const SMOOTH: f64 = 0.1;
+const SMOOTH: f64 = 0.25;
 
 /// Whether the drawn edge between two faces of one surface is the surface's outline.
 pub(super) fn is_outline(surface: &Support, edge: &Edge, ends: [DVec3; 2], view: &View) -> bool {

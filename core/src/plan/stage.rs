@@ -3,7 +3,7 @@
 use glam::{DMat3, DVec3};
 
 use crate::Result;
-use crate::drawing::{CoEdge, Drawing};
+use crate::drawing::{CoEdge, Drawing, SurfaceKind};
 use crate::identify::Face;
 use crate::lift::{Camera, Lift};
 
@@ -107,8 +107,11 @@ pub fn plan(drawing: &Drawing, faces: &[Face], lift: &Lift, options: &PlanOption
             }
             surface => {
                 let ends = edge.v.map(|v| lifted[v]);
+                // What stands in for a surface of another kind has outlines of its own.
+                let other = |u: &Use| faces[u.face].kind == SurfaceKind::Other;
                 snapped.of_face[a.face] == snapped.of_face[b.face]
-                    && silhouette::is_outline(&surface, edge, ends, &view)
+                    && (silhouette::is_outline(&surface, edge, ends, &view)
+                        || (other(a) && other(b) && silhouette::is_fold(drawing, e)))
             }
         })
         .collect();
@@ -154,7 +157,22 @@ pub fn plan(drawing: &Drawing, faces: &[Face], lift: &Lift, options: &PlanOption
         points
     };
     let loops: Vec<_> = faces.iter().map(|f| f.loops.clone()).collect();
-    let turned = orient(&loops, &supports, &uses, &view, points)?;
+    for (f, (face, support)) in faces.iter().zip(&supports).enumerate() {
+        let name = match support {
+            Support::Plane { .. } | Support::Unknown => continue,
+            Support::Cylinder { .. } => "cylinder",
+            Support::Cone { .. } => "cone",
+            Support::Sphere { .. } => "sphere",
+            Support::Torus { .. } => "torus",
+        };
+        if face.kind == SurfaceKind::Other {
+            notices.push(format!(
+                "face {}, of another kind, is built as a {name}",
+                f + 1
+            ));
+        }
+    }
+    let turned = orient(&loops, &supports, &uses, &view, |e| silhouettes[e], points)?;
     let faces = turned
         .into_iter()
         .zip(&supports)

@@ -1,5 +1,7 @@
 #include "fill.h"
 
+#include <algorithm>
+
 #include <GeomAdaptor_Curve.hxx>
 #include <GeomConvert.hxx>
 #include <GeomFill_BSplineCurves.hxx>
@@ -14,13 +16,15 @@
 namespace faceformer::occt {
 namespace {
 
-// The plate passes its edges at so many points of each, within these inner units, and its
-// approximation stays as close to it.
+// The plate passes its edges at so many points of all together, at least and at most so many of
+// each; its approximation stays within these inner units of it.
 constexpr int kPlateDegree = 3;
-constexpr int kPlatePoints = 20;
+constexpr int kPlatePoints = 200;
+constexpr int kFewPoints = 8;
+constexpr int kManyPoints = 40;
 constexpr int kPlateIterations = 2;
-constexpr double kPlateTolerance = 1e-3;
-constexpr int kApproximationPieces = 12;
+constexpr double kPlateTolerance = 1e-4;
+constexpr int kApproximationPieces = 30;
 constexpr int kApproximationDegree = 8;
 
 Handle(Geom_TrimmedCurve) trimmed(std::int32_t coedge, const Topology &topology) {
@@ -44,13 +48,19 @@ Handle(Geom_BSplineSurface) coons(const Loop &loop, const Topology &topology) {
 }
 
 Handle(Geom_BSplineSurface) plate(const Face &face, const Topology &topology) {
-  GeomPlate_BuildPlateSurface builder(kPlateDegree, kPlatePoints, kPlateIterations);
+  std::size_t edges = 0;
+  for (const Loop &loop : face.loops) {
+    edges += loop.coedges.size();
+  }
+  const int points =
+      std::clamp(kPlatePoints / static_cast<int>(edges), kFewPoints, kManyPoints);
+  GeomPlate_BuildPlateSurface builder(kPlateDegree, points, kPlateIterations);
   for (const Loop &loop : face.loops) {
     for (const std::int32_t coedge : loop.coedges) {
       const Segment segment = segment_of(topology.edges[edge_index(coedge)]);
       const Handle(GeomAdaptor_Curve) curve =
           new GeomAdaptor_Curve(segment.curve, segment.first, segment.last);
-      builder.Add(new GeomPlate_CurveConstraint(curve, 0, kPlatePoints));
+      builder.Add(new GeomPlate_CurveConstraint(curve, 0, points));
     }
   }
   builder.Perform();

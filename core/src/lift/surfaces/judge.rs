@@ -11,6 +11,9 @@ use crate::lift::ring_torus::touching_gap;
 /// distance, relative to the drawing's size: it decides between surfaces that fit alike.
 const KINK: f64 = 1e-6;
 
+/// A stand-in passes through known points within this share of the drawing's size.
+const STAND_IN: f64 = 2e-5;
+
 /// Candidates better than this many times the best are refined.
 const RIVALS: usize = 4;
 
@@ -44,6 +47,27 @@ pub(super) fn best(
             cost(a).total_cmp(&cost(b))
         })
         .map(|(_, surface)| surface)
+}
+
+/// A surface between whole circles only that does not agree with the outlines, if none does: it
+/// passes through all known points, and is the one that outlines and smooth neighbours speak for
+/// most. A band between two circles is better closed by it than by a surface of no kind.
+pub(super) fn stand_in(evidence: &Evidence, candidates: Vec<Surface>) -> Option<Surface> {
+    let mut rings = evidence.bounds.iter();
+    if evidence.bounds.len() < 2 || !rings.all(|b| b.ring.is_some()) {
+        return None;
+    }
+    let off = |surface: &Surface| {
+        let distances = evidence.points().map(|p| surface.distance(p).abs());
+        distances.fold(0.0, f64::max)
+    };
+    candidates
+        .into_iter()
+        .filter(|surface| off(surface) <= STAND_IN * evidence.size)
+        .min_by(|a, b| {
+            let cost = |s: &Surface| misfit(evidence, s) + kinks(evidence, s);
+            cost(a).total_cmp(&cost(b))
+        })
 }
 
 /// Residuals of a surface: distances of known points, and of lines of sight that are to touch it.

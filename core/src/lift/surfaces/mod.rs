@@ -52,7 +52,30 @@ pub(super) fn surfaces(sheet: &Sheet<'_>, heights: &Heights) -> Vec<Surface> {
             }
         }
     }
+    for whole in &wholes {
+        if sheet.faces[whole[0]].kind == SurfaceKind::Other
+            && whole.iter().all(|&f| known[f] == Surface::Unknown)
+        {
+            let evidence = Evidence::new(sheet, depths, whole, &known);
+            let stand_in = judge::stand_in(&evidence, any(&evidence));
+            whole
+                .iter()
+                .for_each(|&f| known[f] = stand_in.unwrap_or(Surface::Unknown));
+        }
+    }
     known
+}
+
+/// Candidates for a surface of another kind: it may be one of ours in another form, as a spline.
+fn any(evidence: &Evidence) -> Vec<Surface> {
+    let mut found = sphere::spheres(evidence);
+    for axis in axes::axes(evidence) {
+        found.extend(profile::cylinder(evidence, &axis));
+        found.extend(profile::cone(evidence, &axis));
+        found.extend(profile::tori(evidence, &axis));
+    }
+    found.extend(bend::tori(evidence));
+    found
 }
 
 /// Tries a whole, then each of its faces that are not known yet.
@@ -84,9 +107,16 @@ fn round(
                 .flat_map(|axis| profile::tori(&evidence, axis))
                 .chain(bend::tori(&evidence))
                 .collect(),
+            SurfaceKind::Other => any(&evidence),
             _ => continue,
         };
-        if let Some(surface) = judge::best(&evidence, candidates, tolerance) {
+        let found = if kind == SurfaceKind::Other {
+            // Only what fits as if it were drawn for it.
+            judge::best(&evidence, candidates, ROUNDS[0] * sheet.size)
+        } else {
+            judge::best(&evidence, candidates, tolerance)
+        };
+        if let Some(surface) = found {
             part.iter().for_each(|&f| known[f] = surface);
         }
     }

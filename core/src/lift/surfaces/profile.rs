@@ -7,6 +7,17 @@ use super::evidence::Evidence;
 use crate::lift::Surface;
 use crate::lift::circle::circle_fit;
 
+/// The cylinder around an axis: the mean distance.
+pub(super) fn cylinder(evidence: &Evidence, axis: &Axis) -> Option<Surface> {
+    let count = evidence.points().count();
+    let sum: f64 = evidence.points().map(|p| axis.profile(p).0).sum();
+    (count > 0).then(|| Surface::Cylinder {
+        origin: axis.origin,
+        axis: axis.direction,
+        radius: sum / count as f64,
+    })
+}
+
 /// The cone around an axis: the best line through the profile.
 pub(super) fn cone(evidence: &Evidence, axis: &Axis) -> Option<Surface> {
     let points: Vec<DVec2> = evidence.points().map(|p| axis.profile(p).into()).collect();

@@ -38,6 +38,7 @@ pub(super) fn surfaces(sheet: &Sheet<'_>) -> Vec<Vec<usize>> {
         SurfaceKind::Sphere | SurfaceKind::Torus => {
             !sheet.is_straight(edge) && sheet.circles[edge].is_none()
         }
+        SurfaceKind::Other => sheet.circles[edge].is_none(),
         _ => false,
     };
     wholes(sheet, may_be_outline, |kind| kind != SurfaceKind::Cylinder)
