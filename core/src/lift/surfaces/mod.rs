@@ -56,7 +56,7 @@ pub(super) fn surfaces(sheet: &Sheet<'_>, heights: &Heights) -> Vec<Surface> {
         if sheet.faces[whole[0]].kind == SurfaceKind::Other
             && whole.iter().all(|&f| known[f] == Surface::Unknown)
         {
-            let evidence = Evidence::new(sheet, depths, whole, &known);
+            let evidence = Evidence::new(sheet, heights, whole, &known);
             let stand_in = judge::stand_in(&evidence, any(&evidence));
             whole
                 .iter()
