@@ -19,6 +19,9 @@ use serde::{Deserialize, Serialize};
 /// parts have volumes that react a thousand times as strongly.
 const VOLUME_TOLERANCE: f64 = 1e-3;
 
+/// The same where a face is of no kind that we know: what lies between its edges is a guess.
+const FILLED_TOLERANCE: f64 = 1e-2;
+
 /// The originals' volumes are rounded to so much.
 const VOLUME_ROUNDING: f64 = 5e-6;
 
@@ -30,8 +33,35 @@ const STRIDE: usize = 7;
 struct Original {
     plane: usize,
     cylinder: usize,
+    #[serde(default)]
+    cone: usize,
+    #[serde(default)]
+    sphere: usize,
+    #[serde(default)]
+    torus: usize,
+    #[serde(default)]
+    other: usize,
     volume: f64,
 }
+
+impl Original {
+    /// Faces by kind, in the order of [`KINDS`].
+    fn counts(&self) -> [usize; 6] {
+        let Self {
+            plane,
+            cylinder,
+            cone,
+            sphere,
+            torus,
+            other,
+            ..
+        } = *self;
+        [plane, cylinder, cone, sphere, torus, other]
+    }
+}
+
+/// Names of the kinds of surfaces in the list.
+const KINDS: [&str; 6] = ["plane", "cylinder", "cone", "sphere", "torus", "other"];
 
 #[derive(Debug, Deserialize)]
 struct Expected {
@@ -60,22 +90,44 @@ fn rebuild(drawing: &Drawing, found: &Identification, original: &Original) -> Re
 
 fn compare(report: &SolidReport, original: &Original) -> Result<(), String> {
     let counts = &report.face_counts;
-    if (counts.plane, counts.cylinder) != (original.plane, original.cylinder)
-        || report.faces != original.plane + original.cylinder
-    {
-        return Err(format!(
-            "faces: {} planes and {} cylinders of {} faces, not {} and {}",
-            counts.plane, counts.cylinder, report.faces, original.plane, original.cylinder
-        ));
+    let found = [
+        counts.plane,
+        counts.cylinder,
+        counts.cone,
+        counts.sphere,
+        counts.torus,
+        counts.other,
+    ];
+    let wanted = original.counts();
+    // A face of another kind may be built as one of ours, if it is one or in its stead.
+    let fits = if original.other == 0 {
+        found == wanted
+    } else {
+        found[0] == wanted[0] && (1..5).all(|k| found[k] >= wanted[k])
+    };
+    if !fits || report.faces != wanted.iter().sum::<usize>() {
+        return Err(format!("faces: {}, not {}", named(found), named(wanted)));
     }
     let off = (report.volume - original.volume).abs();
-    if off > VOLUME_TOLERANCE * original.volume + VOLUME_ROUNDING {
+    let share = if original.other == 0 {
+        VOLUME_TOLERANCE
+    } else {
+        FILLED_TOLERANCE
+    };
+    if off > share * original.volume + VOLUME_ROUNDING {
         return Err(format!(
             "volume: {:.5}, not {:.5}",
             report.volume, original.volume
         ));
     }
     Ok(())
+}
+
+/// Counts in words, without what there is none of.
+fn named(counts: [usize; 6]) -> String {
+    let all = KINDS.iter().zip(counts).filter(|(_, n)| *n > 0);
+    let words: Vec<String> = all.map(|(kind, n)| format!("{n} {kind}")).collect();
+    words.join(" ")
 }
 
 /// Rebuilds the listed drawings and returns the reasons of those that fail.
@@ -140,12 +192,12 @@ fn bless(mode: &str, outcomes: &BTreeMap<String, Option<String>>) {
         format!("{indent}{}: {value}", serde_json::to_string(key).unwrap())
     };
     let solids = expected.solids.iter().map(|(id, original)| {
-        let Original {
-            plane,
-            cylinder,
-            volume,
-        } = original;
-        let value = format!(r#"{{"plane": {plane}, "cylinder": {cylinder}, "volume": {volume}}}"#);
+        let counts = KINDS.iter().zip(original.counts()).enumerate();
+        let counts: Vec<String> = counts
+            .filter(|(k, (_, n))| *k < 2 || *n > 0)
+            .map(|(_, (kind, n))| format!(r#""{kind}": {n}, "#))
+            .collect();
+        let value = format!(r#"{{{}"volume": {}}}"#, counts.concat(), original.volume);
         line("    ", id, value)
     });
     let modes = failures.iter().map(|(mode, listed)| {
@@ -202,7 +254,7 @@ fn all_drawings_with_the_faces_found() {
 #[test]
 fn the_lists_name_drawings_that_are_there() {
     let expected = expected();
-    assert_eq!(expected.solids.len(), 209);
+    assert_eq!(expected.solids.len(), 300);
     assert_eq!(
         expected.expected_failures.keys().collect::<Vec<_>>(),
         ["rotation", "truth"]

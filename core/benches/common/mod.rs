@@ -10,7 +10,7 @@ const SAMPLE: &str = concat!(
 
 /// Drawings of 20 faces, about the median of machine parts: the first polyhedron of the sample, and
 /// the first part of planes and cylinders.
-pub fn drawings() -> [(&'static str, Drawing); 2] {
+pub(crate) fn drawings() -> [(&'static str, Drawing); 2] {
     [
         ("polyhedron-20-faces", first(false)),
         ("cylinders-20-faces", first(true)),

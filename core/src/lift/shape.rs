@@ -79,7 +79,7 @@ impl Surface {
 
     /// Signed distance of a point, positive on the side of [`gradient`](Self::gradient); zero
     /// everywhere for an unknown surface, which says nothing about points.
-    pub(crate) fn distance(&self, p: DVec3) -> f64 {
+    pub fn distance(&self, p: DVec3) -> f64 {
         match *self {
             Self::Plane { origin, normal } => normal.dot(p - origin),
             Self::Cylinder {

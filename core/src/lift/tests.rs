@@ -145,7 +145,7 @@ fn a_stepped_shaft_needs_no_frame() {
         Surface::Cylinder { radius, axis, .. } =>
             along(*axis) && [1.0, 0.6, 0.8].iter().any(|r| (r - radius).abs() < 1e-8),
         Surface::Plane { normal, .. } => along(*normal),
-        Surface::Unknown => false,
+        _ => false,
     }));
 }
 

@@ -48,7 +48,7 @@ proptest! {
                     prop_assert!((r / scale - radius).abs() < 2e-3);
                 }
                 Surface::Plane { .. } => prop_assert_eq!(face.kind, SurfaceKind::Plane),
-                Surface::Unknown => prop_assert!(false, "no surface"),
+                _ => prop_assert!(false, "{surface:?}"),
             }
         }
     }

@@ -123,7 +123,7 @@ impl Evidence {
 /// Indices of a list of points, both ends and at most [`POINTS`] between.
 fn thinned(points: &[DVec2]) -> impl Iterator<Item = usize> + use<> {
     let last = points.len().saturating_sub(1);
-    let steps = last.min(POINTS).max(1);
+    let steps = last.clamp(1, POINTS);
     (0..=steps).map(move |i| i * last / steps)
 }
 

@@ -115,9 +115,11 @@ pub(super) fn solve(mut matrix: Vec<Vec<f64>>, mut right: Vec<f64>) -> Option<Ve
         matrix.swap(k, pivot);
         right.swap(k, pivot);
         for i in k + 1..n {
-            let share = matrix[i][k] / matrix[k][k];
-            for j in k..n {
-                matrix[i][j] -= share * matrix[k][j];
+            let (above, below) = matrix.split_at_mut(i);
+            let (own, row) = (&above[k], &mut below[0]);
+            let share = row[k] / own[k];
+            for (x, y) in row.iter_mut().zip(own).skip(k) {
+                *x -= share * y;
             }
             right[i] -= share * right[k];
         }

