@@ -3,11 +3,11 @@
 //! The drawing of a planar face is an affine image of the face, so what no flat outline does, no
 //! planar face's drawing does either: its edges do not turn back on themselves where they meet
 //! (curved faces do so at their silhouettes), its circles are drawn as ellipses of one shape and
-//! direction, and none of its lines is drawn along the axis of one of its circles.
+//! direction, and its lines are not all drawn along the axis of one of its circles.
 
 use glam::DVec2;
 
-use crate::drawing::{CoEdge, Curve2, Drawing, EllipseArc, SurfaceKind};
+use crate::drawing::{CoEdge, Curve2, Drawing, Edge, EllipseArc, SurfaceKind};
 
 /// Sine of the angle up to which two drawn lines are parallel.
 const PARALLEL: f64 = 0.01;
@@ -22,6 +22,9 @@ const VAGUE: f64 = 0.02;
 
 /// Distance from an ellipse, relative to its major axis, up to which a point is on it.
 const ON: f64 = 5e-3;
+
+/// Distance from an ellipse, relative to its chord, up to which a curve may be meant as an arc.
+const NEAR: f64 = 2.5e-4;
 
 /// Ratio of an ellipse's axes from which it is a circle as drawn.
 const ROUND: f64 = 0.9995;
@@ -55,6 +58,8 @@ pub(super) struct Look {
     round: bool,
     /// Whether it is two parallel lines between a curve and its shifted copy.
     swept: bool,
+    /// Whether all its curves are near to ellipses.
+    elliptic: bool,
     /// Whether it is two ellipses that touch at both ends, as no two circles of one plane do.
     lens: bool,
 }
@@ -101,12 +106,14 @@ impl Look {
         let sure: Vec<&EllipseArc> = ellipses.iter().filter(|a| a.uncertainty < VAGUE).collect();
         look.unlike = sure.iter().any(|a| !alike(a, sure[0]));
         look.round = sure.iter().any(|a| a.ratio > ROUND);
-        look.along_axis = sure.iter().any(|arc| {
-            arc.ratio < ROUND
-                && directions
-                    .iter()
-                    .any(|d| d.dot(arc.major).abs() < PARALLEL * arc.major.length())
-        });
+        // Lines of a cylinder all follow its axis; a plane's steepest line is drawn like the axis.
+        look.along_axis = !look.spread
+            && sure.iter().any(|arc| {
+                arc.ratio < ROUND
+                    && directions
+                        .iter()
+                        .any(|d| d.dot(arc.major).abs() < PARALLEL * arc.major.length())
+            });
         let surest = ellipses
             .iter()
             .min_by(|a, b| a.uncertainty.total_cmp(&b.uncertainty));
@@ -132,6 +139,9 @@ impl Look {
                     && d.dot(sure[0].major).abs()
                         < (PARALLEL + 2.0 * sure[0].uncertainty) * sure[0].major.length()
             };
+        look.elliptic = walk
+            .iter()
+            .all(|c| nearly_elliptic(&drawing.edges[c.edge()]));
         look.swept = !look.spread && swept(drawing, walk);
         look.closed_bend = walk.len() == 1 && look.bends == 1;
         look.lens = ellipses.len() == 2
@@ -182,7 +192,7 @@ impl Look {
     /// curve that is no circle; others rule a cone; without lines it is a sphere if drawn round, else a torus.
     pub(super) fn curved_kind(&self) -> SurfaceKind {
         match (self.lines, self.spread) {
-            (2, false) if self.swept && self.bends == 2 => SurfaceKind::Other,
+            (2, false) if self.swept && !self.elliptic => SurfaceKind::Other,
             (1.., false) => SurfaceKind::Cylinder,
             (2, true) => SurfaceKind::Cone,
             (0, _) if self.round => SurfaceKind::Sphere,
@@ -294,6 +304,18 @@ fn alike(a: &EllipseArc, b: &EllipseArc) -> bool {
 fn same_center(a: &EllipseArc, b: &EllipseArc) -> bool {
     let larger = a.major.length().max(b.major.length());
     a.center.distance(b.center) < (0.01 + 3.0 * (a.uncertainty + b.uncertainty)) * larger
+}
+
+/// Whether an edge is a line, or an ellipse as far as a part's own approximations allow.
+fn nearly_elliptic(edge: &Edge) -> bool {
+    match edge.curve {
+        Curve2::Line | Curve2::Ellipse(_) => true,
+        Curve2::Polyline => {
+            let points = &edge.points;
+            let noise = NEAR * points[0].distance(points[points.len() - 1]);
+            matches!(Curve2::recognise_within(points, noise), Curve2::Ellipse(_))
+        }
+    }
 }
 
 /// Whether points lie on an ellipse.
