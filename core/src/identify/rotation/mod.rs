@@ -11,11 +11,13 @@ pub mod features;
 mod frame;
 mod group;
 mod hand;
+pub mod inputs;
 mod orders;
 mod rings;
 #[cfg(test)]
 mod samples;
 mod scorer;
+pub mod shards;
 mod system;
 mod triples;
 
