@@ -9,7 +9,7 @@ from typing import Any
 
 # Widths of the tables that `faceformer features` writes, format 1.
 FORMAT = 1
-EDGE, CORNER, TRIPLE, RELATIONS, KINDS = 98, 36, 54, 15, 6
+EDGE, CORNER, TRIPLE, RELATIONS, KINDS = 87, 36, 54, 15, 6
 
 
 @dataclasses.dataclass(frozen=True)

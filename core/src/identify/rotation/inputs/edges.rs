@@ -11,7 +11,7 @@ use crate::identify::rotation::cycles::LONG;
 use crate::identify::rotation::features::{Context, bell};
 
 /// Numbers of an edge.
-pub const EDGE: usize = 98;
+pub const EDGE: usize = 87;
 
 /// Points along an edge; the first with the last, the second with the last but one and so on make
 /// pairs.
