@@ -59,9 +59,10 @@ class TrainConfig:
     warmup: int = 200
     weight_decay: float = 0.02
     clip: float = 1.0
-    # Weights of the losses: triples, orders at vertices, kinds of loops.
+    # Weights of the losses: triples, edges turned over, orders at vertices, kinds of loops.
     triple_weight: float = 1.0
-    order_weight: float = 0.5
+    flip_weight: float = 1.0
+    order_weight: float = 0.1
     kind_weight: float = 0.2
     # Share of the old value in the running mean of the weights, which is what is kept.
     average: float = 0.995

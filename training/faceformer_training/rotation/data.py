@@ -13,7 +13,8 @@ from safetensors import safe_open
 
 from .config import FORMAT
 
-DEGREES = (3, 4, 5)
+# Degrees of vertices whose orders are in the loss.
+DEGREES = (4, 5)
 
 
 class Shard:
@@ -57,9 +58,31 @@ class Shard:
         start = self.tables["loop_start"][first : last + 1].astype(np.int64)
         d["loop_steps"] = self.tables["loop_steps"][start[0] : start[-1]]
         d["loop_sizes"] = np.diff(start)
+        d["flips"] = flips(d["triple_corners"], d["corner_edges"], d["follows"])
         for degree in DEGREES:
             d[f"orders{degree}"] = self.rows(f"orders{degree}", f"orders{degree}_start", i)
         return d
+
+
+def flips(triple_corners: np.ndarray, corner_edges: np.ndarray, follows: np.ndarray) -> np.ndarray:
+    """The two true triples of each edge, and the two it would have were one end turned over.
+
+    A drawing's parts can be turned over in depth one against the other; what holds them together
+    are the edges between them. With true triples (a, b) and (c, d) at an edge, turning one of its
+    ends over gives (a, d) and (c, b). Edges at which that changes nothing are left out. ``[F, 4]``.
+    """
+    true = np.flatnonzero(follows)
+    edge = corner_edges[triple_corners[true, 0], 1]
+    order = np.argsort(edge, kind="stable")
+    true, edge = true[order], edge[order]
+    first = np.flatnonzero(edge[:-1] == edge[1:])
+    t, u = true[first], true[first + 1]
+    (a, b), (c, d) = triple_corners[t].T, triple_corners[u].T
+    keep = (a != c) & (b != d)
+    t, u, a, b, c, d = (x[keep].astype(np.int64) for x in (t, u, a, b, c, d))
+    # A block of triples lists the second corner first; both are numbered in a row.
+    shift = d - b
+    return np.stack([t, u, t + shift, u - shift], 1)
 
 
 @dataclasses.dataclass
@@ -82,6 +105,7 @@ class Batch:
     loop_steps: torch.Tensor  # [S], triples
     loop_of_step: torch.Tensor  # [S]
     loop_kinds: torch.Tensor  # [L]
+    flips: torch.Tensor  # [F, 4], triples: two true ones, two of the edge turned over
     orders: dict[int, torch.Tensor]  # by degree d: [V, (d - 1)!, 2 d], triples, true order first
 
     def to(self, device: torch.device) -> Batch:
@@ -118,6 +142,7 @@ def collate(drawings: Sequence[dict[str, np.ndarray]]) -> Batch:
         put("triple_corners", d["triple_corners"].astype(np.int64) + corners)
         put("loop_steps", d["loop_steps"].astype(np.int64) + triples)
         put("loop_of_step", np.repeat(np.arange(len(d["loop_sizes"])), d["loop_sizes"]) + loops)
+        put("flips", d["flips"] + triples)
         for degree in DEGREES:
             put(f"orders{degree}", d[f"orders{degree}"].astype(np.int64) + triples)
         corners += len(d["corners"])
@@ -137,6 +162,7 @@ def collate(drawings: Sequence[dict[str, np.ndarray]]) -> Batch:
         loop_steps=joined["loop_steps"],
         loop_of_step=joined["loop_of_step"],
         loop_kinds=joined["loop_kinds"].long(),
+        flips=joined["flips"],
         orders={degree: joined[f"orders{degree}"] for degree in DEGREES},
     )
 

@@ -113,10 +113,16 @@ class RotationModel(nn.Module):
         return self.scores(states, batch), self.kinds(edges, states, batch)
 
 
-def order_losses(scores: torch.Tensor, orders: dict[int, torch.Tensor]) -> list[torch.Tensor]:
+def order_logits(scores: torch.Tensor, orders: dict[int, torch.Tensor]) -> list[torch.Tensor]:
     """For each degree the logits of the orders at its vertices, ``[V, (d - 1)!]``.
 
     Pseudo-likelihood (Besag 1975): the probability of the order at a vertex given the true orders
     of its neighbours. It is what decoding by conditional modes compares.
     """
     return [scores[index].sum(-1) for index in orders.values() if len(index)]
+
+
+def flip_logits(scores: torch.Tensor, flips: torch.Tensor) -> torch.Tensor:
+    """Log-odds that each edge holds its two ends together the right way, ``[F]``."""
+    chosen = scores[flips]
+    return chosen[:, :2].sum(1) - chosen[:, 2:].sum(1)

@@ -24,37 +24,47 @@ from tqdm import tqdm
 
 from .config import TrainConfig
 from .data import Batch, Place, Shard, batches, collate
-from .model import RotationModel, order_losses
+from .model import RotationModel, flip_logits, order_logits
 from .split import part_of
 
 
 def losses(model: torch.nn.Module, batch: Batch) -> dict[str, torch.Tensor]:
-    """The parts of the loss, and what share is right: triples, orders at vertices, kinds."""
+    """The parts of the loss, and what share is right: triples, edges, orders at vertices, kinds."""
     scores, kinds = model(batch)
-    orders = order_losses(scores, batch.orders)
+    orders = order_logits(scores, batch.orders)
+    turned = flip_logits(scores, batch.flips)
+    vertices = max(1, sum(len(logits) for logits in orders))
     order_loss = scores.new_zeros(())
-    right, vertices = 0, 0
     for logits in orders:
         target = logits.new_zeros(len(logits), dtype=torch.long)
         order_loss = order_loss + F.cross_entropy(logits, target, reduction="sum")
-        right += (logits.argmax(1) == 0).sum().item()
-        vertices += len(logits)
-    hand = order_losses(batch.hand, batch.orders)
-    by_hand = sum((logits.argmax(1) == 0).sum().item() for logits in hand)
+    by_hand = order_logits(batch.hand, batch.orders)
     return {
         "triple": F.binary_cross_entropy_with_logits(scores, batch.follows),
-        "order": order_loss / max(vertices, 1),
+        "flip": F.softplus(-turned).mean() if len(turned) else scores.new_zeros(()),
+        "order": order_loss / vertices,
         "kind": F.cross_entropy(kinds, batch.loop_kinds),
         "triples_right": ((scores > 0) == (batch.follows > 0.5)).float().mean(),
-        "orders_right": torch.tensor(right / max(vertices, 1)),
-        "orders_right_by_hand": torch.tensor(by_hand / max(vertices, 1)),
+        "flips_right": share(turned > 0),
+        "flips_right_by_hand": share(flip_logits(batch.hand, batch.flips) > 0),
+        "orders_right": sum(first_is_best(x) for x in orders) / vertices,
+        "orders_right_by_hand": sum(first_is_best(x) for x in by_hand) / vertices,
         "kinds_right": (kinds.argmax(1) == batch.loop_kinds).float().mean(),
     }
+
+
+def share(right: torch.Tensor) -> torch.Tensor:
+    return right.float().mean() if len(right) else torch.ones(())
+
+
+def first_is_best(logits: torch.Tensor) -> int:
+    return int((logits.argmax(1) == 0).sum())
 
 
 def weighted(parts: dict[str, torch.Tensor], config: TrainConfig) -> torch.Tensor:
     return (
         config.triple_weight * parts["triple"]
+        + config.flip_weight * parts["flip"]
         + config.order_weight * parts["order"]
         + config.kind_weight * parts["kind"]
     )
