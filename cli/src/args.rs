@@ -46,9 +46,20 @@ pub(crate) struct FacesArgs {
     /// Engine that finds the faces [default: rotation] [rotation, varley, shortest]
     #[arg(long, value_name = "E", conflicts_with = "faces")]
     pub(crate) engine: Option<EngineKind>,
+    #[command(flatten)]
+    pub(crate) model: ModelArgs,
     /// Use these faces: "truth" for those in the drawing, or a file that `identify` wrote
     #[arg(long, value_name = "truth|FILE")]
     pub(crate) faces: Option<String>,
+}
+
+/// Which trained model the engine uses.
+#[derive(Debug, Args)]
+pub(crate) struct ModelArgs {
+    /// Trained model for the engine rotation (.safetensors, its .json beside it), or "none" for the
+    /// hand-made scores [default: $FACEFORMER_MODEL, else the program's own]
+    #[arg(long, value_name = "FILE")]
+    pub(crate) model: Option<String>,
 }
 
 /// Arguments of `check`.
@@ -69,6 +80,8 @@ pub(crate) struct IdentifyArgs {
     /// Engine that finds the faces [rotation, varley, shortest]
     #[arg(long, value_name = "E", default_value_t)]
     pub(crate) engine: EngineKind,
+    #[command(flatten)]
+    pub(crate) model: ModelArgs,
     /// File for the faces (JSON); standard output without it
     #[arg(short, long, value_name = "FACES.json")]
     pub(crate) output: Option<PathBuf>,

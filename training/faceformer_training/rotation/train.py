@@ -47,18 +47,19 @@ def losses(model: torch.nn.Module, batch: Batch) -> dict[str, torch.Tensor]:
         "triples_right": ((scores > 0) == (batch.follows > 0.5)).float().mean(),
         "flips_right": share(turned > 0),
         "flips_right_by_hand": share(flip_logits(batch.hand, batch.flips) > 0),
-        "orders_right": sum(first_is_best(x) for x in orders) / vertices,
-        "orders_right_by_hand": sum(first_is_best(x) for x in by_hand) / vertices,
+        "orders_right": share(first_is_best(orders)),
+        "orders_right_by_hand": share(first_is_best(by_hand)),
         "kinds_right": (kinds.argmax(1) == batch.loop_kinds).float().mean(),
     }
 
 
 def share(right: torch.Tensor) -> torch.Tensor:
-    return right.float().mean() if len(right) else torch.ones(())
+    """Mean; no number if there is nothing to be right about."""
+    return right.float().mean()
 
 
-def first_is_best(logits: torch.Tensor) -> int:
-    return int((logits.argmax(1) == 0).sum())
+def first_is_best(orders: list[torch.Tensor]) -> torch.Tensor:
+    return torch.cat([logits.argmax(1) == 0 for logits in orders] or [torch.zeros(0)])
 
 
 def weighted(parts: dict[str, torch.Tensor], config: TrainConfig) -> torch.Tensor:
@@ -126,18 +127,20 @@ class Source:
 
 @torch.no_grad()
 def validate(model: torch.nn.Module, batch_list: list[Batch], device) -> dict[str, float]:
-    """Means over the validation batches."""
+    """Means over the validation batches that have what is measured."""
     model.eval()
-    total: dict[str, float] = {}
+    seen: dict[str, list[float]] = {}
     for batch in batch_list:
         for name, value in losses(model, batch.to(device)).items():
-            total[name] = total.get(name, 0.0) + float(value)
+            values = seen.setdefault(name, [])
+            if not math.isnan(value):
+                values.append(float(value))
     model.train()
-    return {name: value / max(1, len(batch_list)) for name, value in total.items()}
+    return {name: sum(values) / max(1, len(values)) for name, values in seen.items()}
 
 
-def train(config: TrainConfig, resume: bool) -> Path:
-    """Trains and returns the path of the last checkpoint."""
+def train(config: TrainConfig, resume: bool, stop: int | None = None) -> Path:
+    """Trains, up to step ``stop`` if given, and returns the path of the last checkpoint."""
     torch.set_num_threads(config.threads)
     fabric = Fabric(
         accelerator=config.accelerator,
@@ -167,9 +170,10 @@ def train(config: TrainConfig, resume: bool) -> Path:
     curve = Curve(output / "curve.csv", resume) if fabric.is_global_zero else None
     bar = tqdm(total=config.steps, initial=state["step"], disable=not fabric.is_global_zero)
     started = time.monotonic()
+    last_step = config.steps if stop is None else min(stop, config.steps)
     for epoch, batch, count in source.batches(skip=state["step"]):
         step = state["step"]
-        if step >= config.steps:
+        if step >= last_step:
             break
         for group in optimizer.param_groups:
             group["lr"] = rate(config, step)
@@ -188,7 +192,7 @@ def train(config: TrainConfig, resume: bool) -> Path:
         state["drawings"] += count * fabric.world_size
         bar.update()
         bar.set_postfix(loss=f"{loss.item():.4f}", epoch=epoch, refresh=False)
-        done = state["step"] == config.steps
+        done = state["step"] == last_step
         if state["step"] % config.validate_every == 0 or done:
             if curve is not None:
                 row = {"step": state["step"], "epoch": epoch, "drawings": state["drawings"]}

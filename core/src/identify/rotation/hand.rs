@@ -1,7 +1,7 @@
 //! Scores without a trained model.
 
 use super::features::{COUNT, Feature, Row, features};
-use super::{TripleScorer, Triples};
+use super::{Scores, TripleScorer, Triples};
 use crate::drawing::{Drawing, Graph};
 use crate::{Progress, Result};
 
@@ -29,8 +29,8 @@ impl TripleScorer for HandScorer {
         graph: &Graph,
         triples: &Triples,
         _: Progress<'_>,
-    ) -> Result<Vec<f64>> {
-        Ok(self.sums(&features(drawing, graph, triples)))
+    ) -> Result<Scores> {
+        Ok(self.sums(&features(drawing, graph, triples)).into())
     }
 }
 

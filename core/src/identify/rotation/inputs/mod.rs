@@ -4,7 +4,8 @@
 //! Training and inference both read these tables (`faceformer features` writes them for training),
 //! so they cannot differ. Lengths are in units of the drawing's half diagonal and positions are
 //! taken from the middle of its bounding box. Walking an edge the other way changes nothing;
-//! mirroring the drawing changes positions and directions only.
+//! mirroring the drawing changes positions and directions only. Numbers are rounded to half
+//! precision, in which files keep them.
 
 mod corners;
 mod edges;
@@ -16,6 +17,8 @@ pub use corners::CORNER;
 pub use edges::EDGE;
 pub use relations::{RELATIONS, Relation};
 pub use triples::TRIPLE;
+
+use half::f16;
 
 use super::Triples;
 use super::cycles::shortest_cycles;
@@ -156,7 +159,7 @@ impl Table {
         } else {
             x.clamp(-10.0, 10.0)
         };
-        self.values.push(x as f32);
+        self.values.push(f16::from_f64(x).to_f32());
     }
 
     fn flag(&mut self, x: bool) {

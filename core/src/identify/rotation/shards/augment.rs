@@ -190,7 +190,8 @@ mod tests {
         let scorer = HandScorer::default();
         let mut scores = scorer
             .score(drawing, &graph, &triples, Progress::none())
-            .unwrap();
+            .unwrap()
+            .log_odds;
         scores.sort_by(f64::total_cmp);
         scores
     }

@@ -4,8 +4,8 @@ use super::super::Triples;
 use super::super::orders::cyclic_orders;
 use crate::drawing::{CoEdge, Graph, SurfaceKind, Truth};
 
-/// Largest degree whose orders are listed.
-const ORDERS: usize = 5;
+/// Degrees whose orders are listed. At lower ones given neighbours leave little to choose.
+const ORDERS: std::ops::RangeInclusive<usize> = 4..=5;
 
 /// Truth of one drawing in the terms of the model.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -16,9 +16,9 @@ pub(super) struct Labels {
     pub(super) loops: Vec<Vec<u32>>,
     /// Surface kind of each loop's face, place in [`KINDS`](super::KINDS).
     pub(super) kinds: Vec<u8>,
-    /// For the vertices of degree 3, 4 and 5 with true neighbours: for each of the `(d - 1)!`
+    /// For the vertices of degree 4 and 5 with true neighbours: for each of the `(d - 1)!`
     /// cyclic orders, the true one first, the `2 d` triples that it chooses.
-    pub(super) orders: [Vec<u32>; ORDERS - 2],
+    pub(super) orders: [Vec<u32>; 2],
 }
 
 impl Labels {
@@ -54,10 +54,10 @@ impl Labels {
         }
         for v in 0..graph.vertex_count() {
             let degree = graph.degree(v);
-            if (3..=ORDERS).contains(&degree) {
-                if let Some(rows) = around.orders(graph, triples, v) {
-                    labels.orders[degree - 3].extend(rows);
-                }
+            if ORDERS.contains(&degree)
+                && let Some(rows) = around.orders(graph, triples, v)
+            {
+                labels.orders[degree - ORDERS.start()].extend(rows);
             }
         }
         Some(labels)
@@ -161,7 +161,7 @@ mod tests {
             assert_eq!(steps, 2 * graph.edge_count());
             assert!(labels.kinds.iter().all(|&k| k == 2));
             for (k, rows) in labels.orders.iter().enumerate() {
-                let degree = k + 3;
+                let degree = k + ORDERS.start();
                 let count: usize = (1..degree).product();
                 let width = 2 * degree;
                 let vertices = (0..graph.vertex_count()).filter(|&v| graph.degree(v) == degree);

@@ -16,8 +16,8 @@
 //! | `follows` | u8 `[T]` | whether the triple is in a true face |
 //! | `loop_steps`, `loop_start` | i32, `[L + 1]` | triples along each loop, from 0 in each drawing |
 //! | `loop_kinds` | u8 `[L]` | surface kind, place in [`KINDS`] |
-//! | `orders3`, `orders4`, `orders5` | i32 `[V, (d-1)!, 2 d]` | triples of each order at a vertex of that degree, the true one first |
-//! | `edge_start`, `corner_start`, `triple_start`, `loops_start`, `orders3_start`, ... | i32 `[N + 1]` | where each drawing's rows begin |
+//! | `orders4`, `orders5` | i32 `[V, (d-1)!, 2 d]` | triples of each order at a vertex of that degree, the true one first |
+//! | `edge_start`, `corner_start`, `triple_start`, `loops_start`, `orders4_start`, `orders5_start` | i32 `[N + 1]` | where each drawing's rows begin |
 //!
 //! The metadata hold `ids` and `format`.
 
@@ -64,9 +64,9 @@ pub struct Shard {
     loop_steps: Vec<i32>,
     loop_start: Vec<i32>,
     loop_kinds: Vec<u8>,
-    orders: [Vec<i32>; 3],
-    /// Ends of each drawing's rows: edges, corners, triples, loops, orders of degree 3, 4 and 5.
-    ends: [Vec<i32>; 7],
+    orders: [Vec<i32>; 2],
+    /// Ends of each drawing's rows: edges, corners, triples, loops, orders of degree 4 and 5.
+    ends: [Vec<i32>; 6],
 }
 
 impl Shard {
@@ -110,8 +110,8 @@ impl Shard {
         for (all, new) in self.orders.iter_mut().zip(&labels.orders) {
             all.extend(new.iter().map(|&t| t as i32));
         }
-        let [three, four, five] = [0, 1, 2].map(|k| {
-            let degree = k + 3;
+        let [four, five] = [0, 1].map(|k| {
+            let degree = k + 4;
             self.orders[k].len() / (2 * degree * (1..degree).product::<usize>())
         });
         let counts = [
@@ -119,7 +119,6 @@ impl Shard {
             self.corner_edges.len() / 2,
             self.hand.len(),
             self.loop_kinds.len(),
-            three,
             four,
             five,
         ];
@@ -199,8 +198,8 @@ impl Shard {
             &[self.loop_kinds.len()],
             self.loop_kinds.clone(),
         );
-        for (k, name) in ["orders3", "orders4", "orders5"].into_iter().enumerate() {
-            let degree = k + 3;
+        for (k, name) in ["orders4", "orders5"].into_iter().enumerate() {
+            let degree = k + 4;
             let (count, width) = ((1..degree).product::<usize>(), 2 * degree);
             let vertices = self.orders[k].len() / (count * width);
             add(name, i32, &[vertices, count, width], ints(&self.orders[k]));
@@ -210,7 +209,6 @@ impl Shard {
             "corner_start",
             "triple_start",
             "loops_start",
-            "orders3_start",
             "orders4_start",
             "orders5_start",
         ];
