@@ -18,7 +18,10 @@ fn description() -> String {
 }
 
 /// The fixture's weights with one tensor left out or changed, and a description that fits.
-fn altered(name: &str, change: impl Fn(&TensorView<'_>) -> Option<(Vec<usize>, Vec<u8>)>) -> ModelError {
+fn altered(
+    name: &str,
+    change: impl Fn(&TensorView<'_>) -> Option<(Vec<usize>, Vec<u8>)>,
+) -> ModelError {
     use safetensors::SafeTensors;
     use sha2::{Digest, Sha256};
     let bytes = fixture("model.safetensors");
@@ -32,10 +35,16 @@ fn altered(name: &str, change: impl Fn(&TensorView<'_>) -> Option<(Vec<usize>, V
         }
     }
     let views = list.iter().map(|(key, dtype, shape, data)| {
-        (key.clone(), TensorView::new(*dtype, shape.clone(), data).unwrap())
+        (
+            key.clone(),
+            TensorView::new(*dtype, shape.clone(), data).unwrap(),
+        )
     });
     let weights = serialize(views, None).unwrap();
-    let hash: String = Sha256::digest(&weights).iter().map(|b| format!("{b:02x}")).collect();
+    let hash: String = Sha256::digest(&weights)
+        .iter()
+        .map(|b| format!("{b:02x}"))
+        .collect();
     let mut text: serde_json::Value = serde_json::from_str(&description()).unwrap();
     text["sha256"] = hash.into();
     load(weights, &text.to_string()).unwrap_err()
@@ -47,20 +56,34 @@ fn damaged_files_are_refused_by_what_is_wrong() {
     assert!(load(weights.clone(), &description()).is_ok());
     let mut flipped = weights.clone();
     *flipped.last_mut().unwrap() ^= 1;
-    assert!(matches!(load(flipped, &description()), Err(ModelError::Hash { .. })));
-    assert!(matches!(load(weights.clone(), "{}"), Err(ModelError::Description(_))));
+    assert!(matches!(
+        load(flipped, &description()),
+        Err(ModelError::Hash { .. })
+    ));
+    assert!(matches!(
+        load(weights.clone(), "{}"),
+        Err(ModelError::Description(_))
+    ));
     let other = description().replace("\"edge\": ", "\"edge\": 1");
     assert_eq!(load(weights, &other).unwrap_err(), ModelError::Version);
     let long = vec![0; LIMIT as usize + 1];
-    assert!(matches!(load(long, &description()), Err(ModelError::TooLarge { .. })));
-    assert!(matches!(read(Path::new("/nowhere.safetensors")), Err(ModelError::Read { .. })));
+    assert!(matches!(
+        load(long, &description()),
+        Err(ModelError::TooLarge { .. })
+    ));
+    assert!(matches!(
+        read(Path::new("/nowhere.safetensors")),
+        Err(ModelError::Read { .. })
+    ));
 }
 
 #[test]
 fn altered_weights_are_refused_by_name() {
     let missing = altered("hand", |_| None);
     assert_eq!(missing, ModelError::Missing("hand".to_owned()));
-    let shape = altered("norm.weight", |view| Some((vec![1, 16], view.data().to_vec())));
+    let shape = altered("norm.weight", |view| {
+        Some((vec![1, 16], view.data().to_vec()))
+    });
     assert!(matches!(shape, ModelError::Shape { name, .. } if name == "norm.weight"));
     let values = altered("hand", |_| Some((vec![1], f32::NAN.to_le_bytes().to_vec())));
     assert_eq!(values, ModelError::Values("hand".to_owned()));
@@ -81,7 +104,11 @@ fn a_model_is_used_or_its_failure_is_told() {
     let failed = identify(Some("/nowhere.safetensors"));
     assert_eq!(failed.faces, none.faces);
     assert_eq!(failed.notices.len(), 1);
-    assert!(failed.notices[0].contains("/nowhere.safetensors"), "{:?}", failed.notices);
+    assert!(
+        failed.notices[0].contains("/nowhere.safetensors"),
+        "{:?}",
+        failed.notices
+    );
 }
 
 #[test]
