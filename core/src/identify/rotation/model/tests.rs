@@ -128,7 +128,7 @@ fn numbering_and_walking_direction_do_not_change_scores() {
         reverse: true,
         ..Augment::default()
     };
-    for drawing in [samples::cube(), samples::pyramid(), samples::two_arcs()] {
+    for drawing in [samples::cube(), samples::pyramid()] {
         let before = sorted(&drawing);
         let after = sorted(&augment.apply(&drawing, 1));
         for (a, b) in before.iter().zip(&after) {
