@@ -36,6 +36,8 @@ pub(crate) enum Command {
     Eval(EvalArgs),
     /// Draw a picture of a drawing and its faces
     Render(RenderArgs),
+    /// Write the tables that the rotation engine's model is trained on
+    Features(FeaturesArgs),
 }
 
 /// Where the faces come from.
@@ -44,9 +46,20 @@ pub(crate) struct FacesArgs {
     /// Engine that finds the faces [default: rotation] [rotation, varley, shortest]
     #[arg(long, value_name = "E", conflicts_with = "faces")]
     pub(crate) engine: Option<EngineKind>,
+    #[command(flatten)]
+    pub(crate) model: ModelArgs,
     /// Use these faces: "truth" for those in the drawing, or a file that `identify` wrote
     #[arg(long, value_name = "truth|FILE")]
     pub(crate) faces: Option<String>,
+}
+
+/// Which trained model the engine uses.
+#[derive(Debug, Args)]
+pub(crate) struct ModelArgs {
+    /// Trained model for the engine rotation (.safetensors, its .json beside it), or "none" for the
+    /// hand-made scores [default: $FACEFORMER_MODEL, else the program's own]
+    #[arg(long, value_name = "FILE")]
+    pub(crate) model: Option<String>,
 }
 
 /// Arguments of `check`.
@@ -67,6 +80,8 @@ pub(crate) struct IdentifyArgs {
     /// Engine that finds the faces [rotation, varley, shortest]
     #[arg(long, value_name = "E", default_value_t)]
     pub(crate) engine: EngineKind,
+    #[command(flatten)]
+    pub(crate) model: ModelArgs,
     /// File for the faces (JSON); standard output without it
     #[arg(short, long, value_name = "FACES.json")]
     pub(crate) output: Option<PathBuf>,
@@ -164,6 +179,37 @@ pub(crate) struct EvalArgs {
     /// File for what was refused or failed: JSON lines with id, stage and message
     #[arg(long, value_name = "FILE")]
     pub(crate) failures: Option<PathBuf>,
+}
+
+/// Arguments of `features`. The options vary the drawings in ways that leave their faces.
+#[derive(Debug, Args)]
+pub(crate) struct FeaturesArgs {
+    /// Data set: .jsonl or .jsonl.zst, every drawing with its truth
+    pub(crate) data: PathBuf,
+    /// File for the tables
+    #[arg(short, long, value_name = "OUT.safetensors")]
+    pub(crate) output: PathBuf,
+    /// Take the first N drawings only
+    #[arg(long, value_name = "N")]
+    pub(crate) limit: Option<usize>,
+    /// Mirror every other drawing
+    #[arg(long)]
+    pub(crate) mirror: bool,
+    /// Turn every drawing by an angle of its own
+    #[arg(long)]
+    pub(crate) rotate: bool,
+    /// Number vertices and edges anew
+    #[arg(long)]
+    pub(crate) renumber: bool,
+    /// Walk every other edge the other way
+    #[arg(long)]
+    pub(crate) reverse: bool,
+    /// Largest error of coordinates, in half diagonals of the drawing; each drawing has its own
+    #[arg(long, value_name = "R", default_value_t = 0.0)]
+    pub(crate) noise: f64,
+    /// Seed of these choices
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) seed: u64,
 }
 
 /// Arguments of `render`.

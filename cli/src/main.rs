@@ -4,6 +4,7 @@ mod args;
 mod check;
 mod eval;
 mod failure;
+mod features;
 mod output;
 mod render;
 mod solid;
@@ -24,6 +25,7 @@ fn main() -> ExitCode {
         Command::Lift(args) => stages::run_lift(args),
         Command::Solid(args) => solid::run(args),
         Command::Eval(args) => eval::run(args),
+        Command::Features(args) => features::run(args),
         Command::Render(args) => render::run(args),
     };
     match result {

@@ -5,7 +5,7 @@ use faceformer::drawing::{CleanDrawing, Drawing, Finding, Severity};
 use faceformer::identify::{self, Engine, EngineKind, Identification};
 use faceformer::lift::{Lift, LiftOptions, lift};
 
-use crate::args::{FacesArgs, IdentifyArgs, LiftArgs};
+use crate::args::{FacesArgs, IdentifyArgs, LiftArgs, ModelArgs};
 use crate::failure::Failure;
 use crate::output::{Output, finish, json_line};
 use crate::source;
@@ -26,13 +26,13 @@ impl FacesFrom {
         match (&args.faces, args.engine) {
             (Some(name), _) if name == "truth" => Self::Truth,
             (Some(name), _) => Self::File(name.clone()),
-            (None, kind) => Self::engine(kind.unwrap_or_default()),
+            (None, kind) => Self::engine(kind.unwrap_or_default(), &args.model),
         }
     }
 
-    /// The engine of that kind.
-    pub(crate) fn engine(kind: EngineKind) -> Self {
-        Self::Engine(identify::engine(kind))
+    /// The engine of that kind, with its model.
+    pub(crate) fn engine(kind: EngineKind, model: &ModelArgs) -> Self {
+        Self::Engine(identify::engine_with_model(kind, model.model.as_deref()))
     }
 
     /// The faces of a drawing.
@@ -101,7 +101,7 @@ pub(crate) fn tell(notices: &[String]) {
 pub(crate) fn run_identify(args: &IdentifyArgs) -> Result<(), Failure> {
     let output = args.output.as_deref().map(Output::create).transpose()?;
     let drawing = usable(&args.drawing)?;
-    let found = FacesFrom::engine(args.engine).faces(&drawing)?;
+    let found = FacesFrom::engine(args.engine, &args.model).faces(&drawing)?;
     tell(&found.notices);
     finish(output, &json_line(&found)?)
 }

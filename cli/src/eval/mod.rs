@@ -13,7 +13,7 @@ use crate::args::{EvalArgs, Shapes};
 use crate::failure::Failure;
 use crate::output::{Output, finish, json_line, print};
 use crate::stages::FacesFrom;
-use bar::Bar;
+pub(crate) use bar::Bar;
 use figures::Figures;
 use measure::{Measured, measure, measure_corrupted};
 use random::Random;

@@ -22,6 +22,6 @@ pub use error::IdentifyError;
 pub use faces::{FILE, TRUTH, from_truth, read_faces};
 pub use model::{Candidate, Engine, Evidence, Face, Identification};
 pub use orient::orient;
-pub use registry::{EngineKind, engine};
+pub use registry::{EngineKind, engine, engine_with_model};
 pub use shortest::ShortestEngine;
 pub use varley::VarleyEngine;

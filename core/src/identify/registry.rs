@@ -63,11 +63,19 @@ impl FromStr for EngineKind {
 }
 
 /// The engine of that kind, with its default settings.
+///
+/// The rotation engine looks for a trained model, see [`RotationEngine::with_model`].
 pub fn engine(kind: EngineKind) -> Box<dyn Engine> {
+    engine_with_model(kind, None)
+}
+
+/// The engine of that kind; those with a trained model take the one that `model` names: a file, or
+/// "none" for none at all.
+pub fn engine_with_model(kind: EngineKind, model: Option<&str>) -> Box<dyn Engine> {
     match kind {
         EngineKind::Shortest => Box::new(ShortestEngine::default()),
         EngineKind::Varley => Box::new(VarleyEngine),
-        EngineKind::Rotation => Box::new(RotationEngine::default()),
+        EngineKind::Rotation => Box::new(RotationEngine::with_model(model)),
     }
 }
 

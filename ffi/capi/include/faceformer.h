@@ -164,6 +164,11 @@ void faceformer_drawing_free(struct FaceformerDrawing *drawing);
  * defaults. `faceformer_info` lists the engines. `callback` is null or hears progress and may
  * cancel; it gets `user`.
  *
+ * With `"model": "FILE"` the engine rotation uses the trained model in that file, with
+ * `"model": "none"` its hand-made scores, and else the file that the environment variable
+ * `FACEFORMER_MODEL` names, or the library's own model. If a model cannot be used, the hand-made
+ * scores are, and the faces' `notices` say so.
+ *
  * Returns `FACEFORMER_STATUS_FAILED` if the engine cannot handle the drawing (an edge ends freely,
  * no consistent faces exist; the message names the edge), `FACEFORMER_STATUS_CANCELLED` if the
  * callback returned 0. Any thread may call this, several at once with the same drawing. Free

@@ -36,12 +36,14 @@ impl FaceformerFaces {
 #[serde(default, deny_unknown_fields)]
 struct IdentifyOptions {
     engine: String,
+    model: Option<String>,
 }
 
 impl Default for IdentifyOptions {
     fn default() -> Self {
         Self {
             engine: EngineKind::default().to_string(),
+            model: None,
         }
     }
 }
@@ -51,6 +53,11 @@ impl Default for IdentifyOptions {
 /// `options_json` has `len` bytes: `{"engine": "rotation"}`, every key optional, null for the
 /// defaults. `faceformer_info` lists the engines. `callback` is null or hears progress and may
 /// cancel; it gets `user`.
+///
+/// With `"model": "FILE"` the engine rotation uses the trained model in that file, with
+/// `"model": "none"` its hand-made scores, and else the file that the environment variable
+/// `FACEFORMER_MODEL` names, or the library's own model. If a model cannot be used, the hand-made
+/// scores are, and the faces' `notices` say so.
 ///
 /// Returns `FACEFORMER_STATUS_FAILED` if the engine cannot handle the drawing (an edge ends freely,
 /// no consistent faces exist; the message names the edge), `FACEFORMER_STATUS_CANCELLED` if the
@@ -83,7 +90,8 @@ pub unsafe extern "C" fn faceformer_identify(
         // SAFETY: the callback may be called with `user` by this function's contract.
         let watcher = unsafe { Watcher::new(callback, user) };
         let report = |stage, share| watcher.report(stage, share);
-        let found = identify::engine(kind).identify(&drawing.0.drawing, Progress::new(&report))?;
+        let found = identify::engine_with_model(kind, options.model.as_deref())
+            .identify(&drawing.0.drawing, Progress::new(&report))?;
         out.put(FaceformerFaces::leak(drawing, found));
         Ok(())
     })

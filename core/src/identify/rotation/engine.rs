@@ -2,7 +2,7 @@
 
 use super::cuts::Cuts;
 use super::group::{Grouping, group};
-use super::{Field, HandScorer, TripleScorer, Triples};
+use super::{Field, HandScorer, TripleScorer, Triples, model};
 use crate::drawing::{CoEdge, Drawing, Graph, SurfaceKind};
 use crate::identify::kinds::kinds_of;
 use crate::identify::{
@@ -16,17 +16,37 @@ pub const MAX_DEGREE: usize = 24;
 /// Faces from a rotation system; see the [module](super).
 pub struct RotationEngine {
     scorer: Box<dyn TripleScorer>,
+    notices: Vec<String>,
 }
 
 impl RotationEngine {
     /// The engine with scores from `scorer`.
     pub fn new(scorer: Box<dyn TripleScorer>) -> Self {
-        Self { scorer }
+        Self {
+            scorer,
+            notices: Vec::new(),
+        }
+    }
+
+    /// The engine with the model that is asked for: by `name`, a file or [`model::NONE`], else by
+    /// the environment variable [`model::VARIABLE`], else the one that comes with the program, if
+    /// there is one.
+    ///
+    /// A model that cannot be used is replaced by the hand-made scores, and every result says so.
+    pub fn with_model(name: Option<&str>) -> Self {
+        match model::choose(name) {
+            Ok(Some(scorer)) => Self::new(Box::new(scorer)),
+            Ok(None) => Self::default(),
+            Err(notice) => Self {
+                notices: vec![notice],
+                ..Self::default()
+            },
+        }
     }
 }
 
 impl Default for RotationEngine {
-    /// The engine without a trained model.
+    /// The engine with the hand-made scores.
     fn default() -> Self {
         Self::new(Box::new(HandScorer::default()))
     }
@@ -43,8 +63,10 @@ impl Engine for RotationEngine {
         progress.report(Stage::Identify, 0.0)?;
         let triples = Triples::new(&graph);
         let scores = self.scorer.score(drawing, &graph, &triples, progress)?;
+        let mut notices = self.notices.clone();
+        notices.extend(scores.notices);
         progress.report(Stage::Identify, 0.3)?;
-        let field = Field::new(&graph, &triples, &scores);
+        let field = Field::new(&graph, &triples, &scores.log_odds);
         let system = field.decode();
         progress.report(Stage::Identify, 0.6)?;
         let cuts = Cuts::new(&field, &system);
@@ -60,10 +82,16 @@ impl Engine for RotationEngine {
             walk.iter().map(at).fold(f64::INFINITY, f64::min)
         };
         let walks = system.loops();
-        let kinds = kinds_of(
-            drawing,
-            &walks.iter().map(Vec::as_slice).collect::<Vec<_>>(),
-        );
+        let kinds: Vec<SurfaceKind> = match &scores.kinds {
+            Some(told) => {
+                let kinds = told.kinds(&graph, &triples, &walks);
+                kinds.into_iter().map(|(kind, _)| kind).collect()
+            }
+            None => kinds_of(
+                drawing,
+                &walks.iter().map(Vec::as_slice).collect::<Vec<_>>(),
+            ),
+        };
         let faces: Vec<Face> = walks
             .into_iter()
             .zip(kinds)
@@ -95,7 +123,7 @@ impl Engine for RotationEngine {
             engine: self.name().to_owned(),
             faces: best,
             alternatives,
-            notices: Vec::new(),
+            notices,
         })
     }
 }

@@ -80,44 +80,8 @@ pub type Row = [f64; COUNT];
 
 /// Computes the features of every triple.
 pub fn features(drawing: &Drawing, graph: &Graph, triples: &Triples) -> Vec<Row> {
-    let size = drawing.size().max(f64::MIN_POSITIVE);
-    let ends = ends(drawing);
-    let rings = Rings::new(drawing, graph);
-    let context = Context {
-        drawing,
-        graph,
-        crossings: Crossings::new(graph, &ends, &rings, size),
-        frame: Frame::new(drawing),
-        ends,
-        rings,
-        size,
-    };
     let cycles = shortest_cycles(graph, triples);
-    let mut rows = vec![[0.0; COUNT]; triples.len()];
-    for e in 0..graph.edge_count() {
-        let block = triples.of_edge(e);
-        let shortest = |f: &dyn Fn(usize) -> bool| {
-            let lengths = block.clone().filter(|&t| f(t)).map(|t| cycles[t]);
-            lengths.min().unwrap_or(LONG)
-        };
-        let all = shortest(&|_| true);
-        for t in block.clone() {
-            let (before, after) = (triples.before(t), triples.after(t));
-            let first = shortest(&|x| triples.before(x) == before);
-            let second = shortest(&|x| triples.after(x) == after);
-            let mut facts = Facts(&mut rows[t]);
-            facts.cycle(cycles[t], all, first, second);
-            let triple = Triple {
-                before,
-                edge: CoEdge::new(e, false),
-                after,
-            };
-            context.directions(&mut facts, triple);
-            context.corners(&mut facts, triple);
-            context.circles(&mut facts, triple);
-        }
-    }
-    rows
+    Context::new(drawing, graph).rows(triples, &cycles)
 }
 
 /// A row under construction.
@@ -156,18 +120,65 @@ struct Triple {
     after: CoEdge,
 }
 
-struct Context<'a> {
-    drawing: &'a Drawing,
-    graph: &'a Graph,
-    ends: Vec<End>,
-    rings: Rings,
-    crossings: Crossings,
-    frame: Frame,
-    size: f64,
+/// What is known of a drawing before single triples are looked at.
+pub(super) struct Context<'a> {
+    pub(super) drawing: &'a Drawing,
+    pub(super) graph: &'a Graph,
+    pub(super) ends: Vec<End>,
+    pub(super) rings: Rings,
+    pub(super) crossings: Crossings,
+    pub(super) frame: Frame,
+    /// Half diagonal of the drawing, never 0.
+    pub(super) size: f64,
 }
 
-impl Context<'_> {
-    fn end(&self, c: CoEdge) -> &End {
+impl<'a> Context<'a> {
+    /// Looks at a drawing.
+    pub(super) fn new(drawing: &'a Drawing, graph: &'a Graph) -> Self {
+        let size = drawing.size().max(f64::MIN_POSITIVE);
+        let ends = ends(drawing);
+        let rings = Rings::new(drawing, graph);
+        Self {
+            drawing,
+            graph,
+            crossings: Crossings::new(graph, &ends, &rings, size),
+            frame: Frame::new(drawing),
+            ends,
+            rings,
+            size,
+        }
+    }
+
+    /// Rows of features; `cycles` are the triples' [`shortest_cycles`].
+    pub(super) fn rows(&self, triples: &Triples, cycles: &[u8]) -> Vec<Row> {
+        let mut rows = vec![[0.0; COUNT]; triples.len()];
+        for e in 0..self.graph.edge_count() {
+            let block = triples.of_edge(e);
+            let shortest = |f: &dyn Fn(usize) -> bool| {
+                let lengths = block.clone().filter(|&t| f(t)).map(|t| cycles[t]);
+                lengths.min().unwrap_or(LONG)
+            };
+            let all = shortest(&|_| true);
+            for t in block.clone() {
+                let (before, after) = (triples.before(t), triples.after(t));
+                let first = shortest(&|x| triples.before(x) == before);
+                let second = shortest(&|x| triples.after(x) == after);
+                let mut facts = Facts(&mut rows[t]);
+                facts.cycle(cycles[t], all, first, second);
+                let triple = Triple {
+                    before,
+                    edge: CoEdge::new(e, false),
+                    after,
+                };
+                self.directions(&mut facts, triple);
+                self.corners(&mut facts, triple);
+                self.circles(&mut facts, triple);
+            }
+        }
+        rows
+    }
+
+    pub(super) fn end(&self, c: CoEdge) -> &End {
         &self.ends[c.index()]
     }
 
@@ -323,7 +334,7 @@ impl Context<'_> {
     }
 
     /// Angle that rounding of coordinates can turn a straight edge by, radians.
-    fn noise(&self, end: &End) -> f64 {
+    pub(super) fn noise(&self, end: &End) -> f64 {
         1e-5 * self.size / end.chord.length().max(1e-6 * self.size)
     }
 
@@ -343,6 +354,6 @@ impl Context<'_> {
 }
 
 /// 1 at 0, falling to 0.6 at `width` and to nothing at three times that.
-fn bell(x: f64, width: f64) -> f64 {
+pub(super) fn bell(x: f64, width: f64) -> f64 {
     (-0.5 * (x / width).powi(2)).exp()
 }

@@ -11,7 +11,7 @@ pub(super) struct Fits {
     /// Axes of the cylinders.
     pub(super) cylinders: u8,
     /// Whether the edge is straight.
-    straight: bool,
+    pub(super) straight: bool,
 }
 
 /// Axes of the model with the edges that follow them.
@@ -58,6 +58,11 @@ impl Frame {
             }
         }
         Self { fits }
+    }
+
+    /// What an edge can lie on; `None` if it follows no axis.
+    pub(super) fn fits(&self, edge: usize) -> Option<Fits> {
+        self.fits[edge]
     }
 
     /// How three edges go together.

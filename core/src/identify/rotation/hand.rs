@@ -1,7 +1,7 @@
 //! Scores without a trained model.
 
-use super::features::{COUNT, Feature, features};
-use super::{TripleScorer, Triples};
+use super::features::{COUNT, Feature, Row, features};
+use super::{Scores, TripleScorer, Triples};
 use crate::drawing::{Drawing, Graph};
 use crate::{Progress, Result};
 
@@ -29,10 +29,16 @@ impl TripleScorer for HandScorer {
         graph: &Graph,
         triples: &Triples,
         _: Progress<'_>,
-    ) -> Result<Vec<f64>> {
-        let rows = features(drawing, graph, triples);
-        let sum = |row: &[f64; COUNT]| row.iter().zip(&self.weights).map(|(x, w)| x * w).sum();
-        Ok(rows.iter().map(sum).collect())
+    ) -> Result<Scores> {
+        Ok(self.sums(&features(drawing, graph, triples)).into())
+    }
+}
+
+impl HandScorer {
+    /// Log-odds of rows of features.
+    pub(super) fn sums(&self, rows: &[Row]) -> Vec<f64> {
+        let sum = |row: &Row| row.iter().zip(&self.weights).map(|(x, w)| x * w).sum();
+        rows.iter().map(sum).collect()
     }
 }
 

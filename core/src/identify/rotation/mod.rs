@@ -11,17 +11,21 @@ pub mod features;
 mod frame;
 mod group;
 mod hand;
+pub mod inputs;
+pub mod model;
 mod orders;
 mod rings;
 #[cfg(test)]
 mod samples;
 mod scorer;
+pub mod shards;
 mod system;
 mod triples;
 
 pub use decode::Field;
 pub use engine::{MAX_DEGREE, RotationEngine};
 pub use hand::HandScorer;
-pub use scorer::TripleScorer;
+pub use model::{ModelError, ModelScorer};
+pub use scorer::{LoopKinds, Scores, TripleScorer};
 pub use system::RotationSystem;
 pub use triples::Triples;

@@ -1,7 +1,7 @@
 //! The interface between scoring and decoding.
 
 use super::Triples;
-use crate::drawing::{Drawing, Graph};
+use crate::drawing::{CoEdge, Drawing, Graph, SurfaceKind};
 use crate::{Progress, Result};
 
 /// Says how likely every triple is to be part of a face.
@@ -9,8 +9,7 @@ use crate::{Progress, Result};
 /// Hand-made rules and trained models stand behind this one interface; decoding sees nothing but
 /// the numbers.
 pub trait TripleScorer: Send + Sync {
-    /// Log-odds, one a triple in the order of `triples`: positive if the three edges more likely
-    /// than not follow each other around a face. Finite.
+    /// Scores every triple.
     ///
     /// # Errors
     /// The scorer's own reasons, for instance a drawing beyond a model's limits;
@@ -21,5 +20,37 @@ pub trait TripleScorer: Send + Sync {
         graph: &Graph,
         triples: &Triples,
         progress: Progress<'_>,
-    ) -> Result<Vec<f64>>;
+    ) -> Result<Scores>;
+}
+
+/// What a scorer finds.
+pub struct Scores {
+    /// Log-odds, one a triple in the order of [`Triples`]: positive if the three edges more likely
+    /// than not follow each other around a face. Finite.
+    pub log_odds: Vec<f64>,
+    /// Tells the kinds of surfaces, if the scorer can.
+    pub kinds: Option<Box<dyn LoopKinds>>,
+    /// What the user should know.
+    pub notices: Vec<String>,
+}
+
+impl From<Vec<f64>> for Scores {
+    fn from(log_odds: Vec<f64>) -> Self {
+        Self {
+            log_odds,
+            kinds: None,
+            notices: Vec::new(),
+        }
+    }
+}
+
+/// Tells which kind of surface a loop bounds.
+pub trait LoopKinds {
+    /// The most likely kind for each loop, a closed walk, and its probability.
+    fn kinds(
+        &self,
+        graph: &Graph,
+        triples: &Triples,
+        loops: &[Vec<CoEdge>],
+    ) -> Vec<(SurfaceKind, f64)>;
 }
