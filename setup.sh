@@ -20,10 +20,10 @@ mkdir -p "$native"
 cp "$target/release/libfaceformer_capi.so" "$native/"
 
 step "Turning a sample drawing into a solid and a picture"
-sample='tests/corpus/sample.jsonl.zst#fclib/00039#o0'
+sample='tests/corpus/sample.jsonl.zst#fclib/00199#o0'
 mkdir -p out
 "$target/release/faceformer" solid "$sample" -o out/sample.step
-"$target/release/faceformer" render "$sample" --solid --title 'A cable chain link' -o out/sample.png
+"$target/release/faceformer" render "$sample" --solid --title 'The opener of a drink can' -o out/sample.png
 
 cat <<END
 
