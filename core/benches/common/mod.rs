@@ -1,12 +1,9 @@
 //! The drawings that the benchmarks of all crates work on.
 
+use std::path::Path;
+
 use faceformer::drawing::dataset::Drawings;
 use faceformer::drawing::{Drawing, SurfaceKind};
-
-const SAMPLE: &str = concat!(
-    env!("CARGO_MANIFEST_DIR"),
-    "/../tests/corpus/sample.jsonl.zst"
-);
 
 /// Drawings of 20 faces, about the median of machine parts: the first polyhedron of the sample, and
 /// the first part of planes and cylinders.
@@ -24,8 +21,13 @@ fn first(with_cylinders: bool) -> Drawing {
         let (planes, cylinders) = (of(SurfaceKind::Plane), of(SurfaceKind::Cylinder));
         faces.len() == 20 && planes + cylinders == 20 && (cylinders > 0) == with_cylinders
     };
-    let mut drawings = Drawings::open(SAMPLE)
-        .expect("the sample is there")
+    // The crates that share this file lie at different depths of the repository.
+    let sample = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .ancestors()
+        .map(|folder| folder.join("tests/corpus/sample.jsonl.zst"))
+        .find(|path| path.exists());
+    let mut drawings = Drawings::open(sample.expect("the sample is there"))
+        .expect("the sample can be opened")
         .map(|d| d.expect("the sample can be read"));
     drawings
         .find(fits)
