@@ -104,7 +104,6 @@ impl Look {
             .map(|r| r[0])
             .collect();
         let sure: Vec<&EllipseArc> = ellipses.iter().filter(|a| a.uncertainty < VAGUE).collect();
-        look.unlike = sure.iter().any(|a| !alike(a, sure[0]));
         look.round = sure.iter().any(|a| a.ratio > ROUND);
         // Lines of a cylinder all follow its axis; a plane's steepest line is drawn like the axis.
         look.along_axis = !look.spread
@@ -117,6 +116,15 @@ impl Look {
         let surest = ellipses
             .iter()
             .min_by(|a, b| a.uncertainty.total_cmp(&b.uncertainty));
+        // A short arc on another one's ellipse is of that one, whatever its own ellipse.
+        look.unlike = surest.is_some_and(|whole| {
+            walk.iter().map(|c| &drawing.edges[c.edge()]).any(|edge| {
+                matches!(edge.curve, Curve2::Ellipse(arc)
+                    if arc.uncertainty < VAGUE
+                        && !alike(&arc, whole)
+                        && !on_ellipse(whole, &edge.points))
+            })
+        });
         let one_ellipse = surest.is_some_and(|arc| {
             let mut points = walk.iter().map(|c| &drawing.edges[c.edge()].points);
             points.all(|p| on_ellipse(arc, p))
@@ -157,8 +165,11 @@ impl Look {
     }
 
     /// Whether the loop bounds no planar face, as far as it tells alone.
+    ///
+    /// Edges of a flat outline may touch as well: with lines of several directions they do.
     pub(super) fn is_curved(&self) -> bool {
-        self.cusps > 0
+        let outline = self.spread && self.lines > 2;
+        (self.cusps > 0 && !outline)
             || self.unlike
             || self.along_axis
             || self.tapered

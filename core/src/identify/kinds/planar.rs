@@ -33,7 +33,11 @@ pub(crate) fn kinds_of(drawing: &Drawing, loops: &[&[CoEdge]]) -> Vec<SurfaceKin
         .iter()
         .map(|l| l.is_curved().then_some(false))
         .collect();
-    for &e in looks.iter().flat_map(|l| &l.silhouettes) {
+    for &e in looks
+        .iter()
+        .filter(|l| l.is_curved())
+        .flat_map(|l| &l.silhouettes)
+    {
         for &i in sides.get(&e).into_iter().flatten() {
             flat[i] = Some(false);
         }
