@@ -56,7 +56,7 @@ impl Pieces {
                 break;
             }
             let sheet = Sheet::new(drawing, faces, &reading);
-            match solve::solve_open(&sheet) {
+            match solve::solve_parts(&sheet) {
                 Ok(solved) => {
                     let dropped = solved.dropped();
                     if best.as_ref().is_none_or(|b| 2 * dropped < b.0) {

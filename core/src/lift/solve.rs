@@ -102,6 +102,16 @@ pub(super) fn solve(sheet: &Sheet<'_>) -> Result<Solved, LiftError> {
 
 /// Solves a reading, whatever its rows leave open.
 pub(super) fn solve_open(sheet: &Sheet<'_>) -> Result<Solved, LiftError> {
+    solve_rows(sheet, true)
+}
+
+/// Solves a reading whose parts keep the depth that their own rows give them: loops that are not
+/// grouped into faces yet bound no surface that could tie one part to another.
+pub(super) fn solve_parts(sheet: &Sheet<'_>) -> Result<Solved, LiftError> {
+    solve_rows(sheet, false)
+}
+
+fn solve_rows(sheet: &Sheet<'_>, tie_parts: bool) -> Result<Solved, LiftError> {
     let unknowns = Unknowns::new(sheet);
     let mut system = rows::certain(sheet, &unknowns);
     let mut null_space = gauge::choose(sheet, &unknowns, &mut system)?;
@@ -121,7 +131,9 @@ pub(super) fn solve_open(sheet: &Sheet<'_>) -> Result<Solved, LiftError> {
             null_space = system.null_space()?;
         }
     }
-    complete(sheet, &unknowns, &mut system, &mut null_space)?;
+    if tie_parts {
+        complete(sheet, &unknowns, &mut system, &mut null_space)?;
+    }
     let base: Vec<f64> = system.rows().iter().map(|r| r.weight).collect();
     let mut active = vec![true; system.rows().len()];
     let mut x = settle(&mut system, &unknowns, &base, &active)?;
