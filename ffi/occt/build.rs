@@ -21,11 +21,12 @@ const TOOLKITS: [&str; 10] = [
 ];
 
 /// C++ files of the bridge, without folder and suffix.
-const SOURCES: [&str; 12] = [
+const SOURCES: [&str; 13] = [
     "build",
     "chart",
     "check",
     "curve",
+    "cusp",
     "face",
     "fill",
     "guard",

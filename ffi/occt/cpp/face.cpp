@@ -17,6 +17,7 @@
 #include <gp_Pln.hxx>
 
 #include "chart.h"
+#include "cusp.h"
 #include "fill.h"
 #include "guard.h"
 #include "unroll.h"
@@ -244,6 +245,7 @@ TopoDS_Face made(const Model &model, std::size_t index, const Topology &topology
   if (face.loops.empty()) {
     return whole(face);
   }
+  widen_cusps(model, face, topology);
   Laid laid;
   switch (face.kind) {
   case SurfaceType::Plane:

@@ -25,7 +25,10 @@ use evidence::Evidence;
 pub(super) use wholes::touching;
 
 /// Rounds in which surfaces help their neighbours; the first ones ask for a better fit.
-const ROUNDS: [f64; 4] = [2e-5, 1e-4, 1e-3, 1e-3];
+const ROUNDS: [f64; 4] = [2e-5, 1e-4, 3e-4, 3e-4];
+
+/// A surface may be as far off as this many errors of a drawn point in any case.
+const ERRORS: f64 = 20.0;
 
 /// The surface of every face, as far as known depths tell; in a central projection of planes and
 /// cylinders only, as the others are found from lines of sight that are parallel.
@@ -48,7 +51,9 @@ pub(super) fn surfaces(sheet: &Sheet<'_>, heights: &Heights) -> Vec<Surface> {
     for tolerance in ROUNDS {
         for whole in &wholes {
             if whole.iter().any(|&f| known[f] == Surface::Unknown) {
-                round(sheet, heights, whole, tolerance * sheet.size, &mut known);
+                let drawn = ERRORS * sheet.directions.precision;
+                let tolerance = (tolerance * sheet.size).max(drawn);
+                round(sheet, heights, whole, tolerance, &mut known);
             }
         }
     }
