@@ -119,14 +119,21 @@ pub(crate) fn make(
 }
 
 fn summary(path: &Path, report: &SolidReport) -> String {
-    let counts = &report.face_counts;
+    let worst = report
+        .filled
+        .iter()
+        .map(|f| f.deviation)
+        .fold(0.0, f64::max);
+    let filled = match report.filled.len() {
+        0 => String::new(),
+        n => format!("; {n} filled, within {worst:.1e} of their edges"),
+    };
     format!(
-        "{}: valid closed solid, {} faces ({} planes, {} cylinders), {} edges, {} vertices, volume \
-         {:.6}, area {:.6}\n",
+        "{}: valid closed solid, {} faces ({}{filled}), {} edges, {} vertices, volume {:.6}, area \
+         {:.6}\n",
         path.display(),
         report.faces,
-        counts.plane,
-        counts.cylinder,
+        report.face_counts,
         report.edges,
         report.vertices,
         report.volume,

@@ -96,10 +96,9 @@ impl Built {
             axes: &self.axes,
         }
         .draw(page, frame);
-        let counts = &self.report.face_counts;
         let text = format!(
-            "{} planes, {} cylinders, volume {:.4}",
-            counts.plane, counts.cylinder, self.report.volume
+            "{}, volume {:.4}",
+            self.report.face_counts, self.report.volume
         );
         let at = |y: f64| DVec2::new(frame.corner.x, y);
         let title = "The solid from another side";

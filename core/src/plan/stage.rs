@@ -107,11 +107,14 @@ pub fn plan(drawing: &Drawing, faces: &[Face], lift: &Lift, options: &PlanOption
             }
             surface => {
                 let ends = edge.v.map(|v| lifted[v]);
-                // What stands in for a surface of another kind has outlines of its own.
+                // What stands in for a surface of another kind has outlines of its own: its parts
+                // were taken together because only such edges part them.
                 let other = |u: &Use| faces[u.face].kind == SurfaceKind::Other;
                 snapped.of_face[a.face] == snapped.of_face[b.face]
                     && (silhouette::is_outline(&surface, edge, ends, &view)
-                        || (other(a) && other(b) && silhouette::is_fold(drawing, e)))
+                        || (other(a)
+                            && other(b)
+                            && (!edge.is_straight() || silhouette::is_fold(drawing, e))))
             }
         })
         .collect();

@@ -41,6 +41,23 @@ impl FaceCounts {
     }
 }
 
+/// In words: planes and cylinders, and of the others what there is.
+impl std::fmt::Display for FaceCounts {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} planes, {} cylinders", self.plane, self.cylinder)?;
+        let others = [
+            ("cones", self.cone),
+            ("spheres", self.sphere),
+            ("tori", self.torus),
+            ("others", self.other),
+        ];
+        for (name, count) in others.into_iter().filter(|(_, count)| *count > 0) {
+            write!(f, ", {count} {name}")?;
+        }
+        Ok(())
+    }
+}
+
 /// Figures of a valid, closed solid, measured by OpenCASCADE, in the plan's units.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SolidReport {
