@@ -18,6 +18,7 @@ mod metric;
 mod model;
 mod pieces;
 mod posture;
+mod regular;
 mod revolved;
 mod ring_torus;
 mod rows;
@@ -40,6 +41,7 @@ pub use error::LiftError;
 pub use metric::depth_error;
 pub use model::{Conflict, Lift, LiftMethod, LiftOptions, Surface};
 pub(crate) use pieces::{Pieces, Tilt};
+pub use regular::{Regular, Snap};
 
 use crate::drawing::{Drawing, Projection};
 use crate::identify::Face;
@@ -71,6 +73,26 @@ pub fn lift(
     progress: Progress<'_>,
 ) -> Result<Lift> {
     progress.report(Stage::Lift, 0.0)?;
+    let exact = lift_exact(drawing, faces, options, progress);
+    if matches!(&exact, Err(crate::Error::Cancelled)) {
+        return exact;
+    }
+    let precision = Directions::estimate(drawing).ok().map(|d| d.precision);
+    if regular::is_wanted(drawing, exact.as_ref().ok(), precision)
+        && let Ok(lift) = regular::lift(drawing, faces, options)
+    {
+        return Ok(lift);
+    }
+    exact
+}
+
+/// Lifts a drawing as it is drawn.
+fn lift_exact(
+    drawing: &Drawing,
+    faces: &[Face],
+    options: &LiftOptions,
+    progress: Progress<'_>,
+) -> Result<Lift> {
     if options.flip && matches!(drawing.projection, Projection::Perspective { .. }) {
         return Err(LiftError::NoReversal.into());
     }
@@ -209,5 +231,6 @@ fn finish(sheet: &Sheet<'_>, solved: &Solved) -> Lift {
         directions: sheet.directions.axes.iter().map(|a| a.direction).collect(),
         method: solved.method,
         residual: solved.residual(),
+        regular: None,
     }
 }

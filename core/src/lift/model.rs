@@ -5,7 +5,7 @@ use std::fmt;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use super::Camera;
+use super::{Camera, Regular};
 
 /// Options of lifting.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
@@ -81,6 +81,9 @@ pub enum LiftMethod {
     Exact,
     /// Rows conflicted: L1, then the rows that agree once more as least squares.
     L1,
+    /// The drawing is inexact: what was meant holds exactly, and the drawing was moved to it
+    /// ([`Lift::regular`]).
+    Regular,
 }
 
 /// A face that the lifted depths contradict.
@@ -140,6 +143,9 @@ pub struct Lift {
     pub residual: f64,
     /// Faces that the depths contradict; empty when consistent.
     pub conflicts: Vec<Conflict>,
+    /// The drawing as it was meant, if it is drawn inexactly: depths and surfaces belong to it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub regular: Option<Regular>,
 }
 
 #[cfg(test)]

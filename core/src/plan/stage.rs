@@ -42,8 +42,11 @@ const STEPS: usize = 24;
 /// [`PlanError`] naming the face or edge that does not close, cannot be built or does not fit.
 pub fn plan(drawing: &Drawing, faces: &[Face], lift: &Lift, options: &PlanOptions) -> Result<Plan> {
     check(drawing, faces, lift, options)?;
+    // What is inexact is planned as it was meant.
+    let regular = lift.regular.as_ref().map(|r| r.applied(drawing));
+    let drawing = regular.as_ref().unwrap_or(drawing);
     let uses = uses(drawing, faces)?;
-    let mut notices = Vec::new();
+    let mut notices: Vec<String> = lift.regular.iter().flat_map(|r| r.notices()).collect();
     let (upright, found) = upright::rotation(&lift.directions);
     let rotation = match options.orientation {
         Orientation::Drawn => DMat3::IDENTITY,
@@ -213,6 +216,13 @@ fn check(
     }
     if faces.is_empty() {
         return bad("there are no faces".to_owned());
+    }
+    if let Some(regular) = &lift.regular
+        && (regular.vertices.len() != vertices
+            || regular.curves.len() != drawing.edges.len()
+            || regular.curves.iter().any(|c| c.len() < 2))
+    {
+        return bad("the regular drawing is another one".to_owned());
     }
     if let Camera::Central { focal, .. } = lift.camera
         && !(focal.is_finite() && focal > 0.0)

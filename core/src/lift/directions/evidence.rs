@@ -165,6 +165,8 @@ impl CircleGroup {
 }
 
 fn segments(drawing: &Drawing, precision: f64) -> Vec<Segment> {
+    // A drawing by hand has few edges that are longer than 50 errors.
+    let shortest = (50.0 * precision).min(0.05 * drawing.size());
     let mut all: Vec<Segment> = drawing
         .edges
         .iter()
@@ -174,7 +176,7 @@ fn segments(drawing: &Drawing, precision: f64) -> Vec<Segment> {
             let d = drawing.vertices.get(e.v[1])? - drawing.vertices.get(e.v[0])?;
             let length = d.length();
             // Below this an edge's direction is mostly error.
-            (length > 50.0 * precision).then(|| Segment {
+            (length > shortest).then(|| Segment {
                 edge,
                 direction: d / length,
                 length,

@@ -13,6 +13,7 @@
 
 mod central;
 mod choose;
+mod coarse;
 mod evidence;
 mod hypotheses;
 mod model_frame;
@@ -89,6 +90,12 @@ impl Directions {
             Projection::Orthographic => choose::candidates(drawing),
             Projection::Perspective { focal } => central::candidates(drawing, focal),
         }
+    }
+
+    /// Readings of an orthographic drawing by hand, whose coordinates are off by a thousandth of its
+    /// size and more, most likely first; none if nothing can be told.
+    pub(crate) fn coarse(drawing: &Drawing) -> Vec<Self> {
+        coarse::candidates(drawing)
     }
 
     /// Whether there are three axes at right angles.

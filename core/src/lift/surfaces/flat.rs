@@ -28,7 +28,7 @@ pub(super) fn plane(sheet: &Sheet<'_>, heights: &Heights, face: usize) -> Option
 
 /// Plane through the mean of points, normal to the direction of their smallest spread; `None` if
 /// they lie on a line.
-pub(super) fn best_plane(points: &[DVec3]) -> Option<(DVec3, DVec3)> {
+pub(in crate::lift) fn best_plane(points: &[DVec3]) -> Option<(DVec3, DVec3)> {
     let origin = points.iter().sum::<DVec3>() / points.len() as f64;
     let mut spread = DMat3::ZERO;
     for p in points {

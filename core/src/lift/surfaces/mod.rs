@@ -22,6 +22,7 @@ use super::heights::Heights;
 use super::sheet::Sheet;
 use crate::drawing::SurfaceKind;
 use evidence::Evidence;
+pub(super) use flat::best_plane;
 pub(super) use wholes::touching;
 
 /// Rounds in which surfaces help their neighbours; the first ones ask for a better fit.

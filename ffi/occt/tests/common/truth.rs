@@ -27,6 +27,7 @@ pub fn true_lift(drawing: &Drawing) -> Option<Lift> {
         method: LiftMethod::Exact,
         residual: 1e-6,
         conflicts: Vec::new(),
+        regular: None,
     })
 }
 

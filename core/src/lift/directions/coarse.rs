@@ -1,0 +1,248 @@
+//! Frames of drawings by hand, by likelihood.
+//!
+//! With errors of half a percent most edges agree with several directions, and counting those that
+//! do picks frames at random. So each edge speaks for a frame by how much better it is explained by
+//! an axis than by chance: `ln(p(offset | axis) / p(offset | any direction))`, which is large for
+//! long edges that agree well and nothing for short ones. The level of noise is the one under which
+//! the best frame explains most.
+
+use std::f64::consts::{PI, TAU};
+
+use glam::{DMat3, DQuat, DVec2, DVec3};
+
+use super::evidence::{CircleGroup, Evidence, Segment};
+use super::hypotheses::{Hypothesis, frames};
+use super::{Axis, Directions, columns, towards_viewer};
+use crate::drawing::Drawing;
+use crate::lift::Camera;
+
+/// Standard errors of coordinates that are tried, in units of the drawing's size.
+const PRECISIONS: [f64; 6] = [5e-4, 1e-3, 2e-3, 4e-3, 8e-3, 1.6e-2];
+
+/// Hypotheses that are refined.
+const REFINED: usize = 16;
+
+/// Steps of refinement.
+const STEPS: usize = 8;
+
+/// Readings that are given.
+const READINGS: usize = 3;
+
+/// Share of the best reading's score that a reading has to have.
+const RIVAL: f64 = 0.75;
+
+/// What an axis seen almost from its end or its side costs: few people draw parts so, and such
+/// frames explain edges by chance.
+const FLAT: f64 = 4.0;
+
+/// An axis with a smaller share of depth is seen from its side.
+const FLATTEST: f64 = 0.12;
+
+/// An edge that follows no axis by this much better than another follows neither.
+const CLEAR: f64 = 1.5;
+
+/// Most that one circle says.
+const ROUND_MOST: f64 = 12.0;
+
+/// A frame with what it explains.
+struct Scored {
+    frame: DMat3,
+    score: f64,
+}
+
+pub(super) fn candidates(drawing: &Drawing) -> Vec<Directions> {
+    let size = drawing.size();
+    let mut best: Option<(Evidence, Vec<Scored>)> = None;
+    for relative in PRECISIONS {
+        let evidence = Evidence::new(drawing, relative * size);
+        let all = scored(&evidence);
+        let top = |all: &[Scored]| all.first().map_or(0.0, |s| s.score);
+        if top(&all) > best.as_ref().map_or(0.0, |b| top(&b.1)) {
+            best = Some((evidence, all));
+        }
+    }
+    if std::env::var_os("DBG").is_some() { for s in best.iter().flat_map(|b| &b.1).take(4) { eprintln!("  frame score {:.1} minz {:.3}", s.score, columns(&s.frame).iter().map(|a| a.z.abs()).fold(9.0, f64::min)); } }
+    let Some((evidence, all)) = best else {
+        return Vec::new();
+    };
+    let least = RIVAL * all.first().map_or(0.0, |s| s.score);
+    all.iter()
+        .take_while(|s| s.score >= least)
+        .take(READINGS)
+        .map(|s| reading(&evidence, &s.frame).seen_from_above())
+        .collect()
+}
+
+/// Frames, the one that explains most first.
+fn scored(evidence: &Evidence) -> Vec<Scored> {
+    let mut starts: Vec<Scored> = frames(evidence)
+        .into_iter()
+        .map(|h: Hypothesis| Scored {
+            score: score(evidence, &h.frame, 2.0),
+            frame: h.frame,
+        })
+        .collect();
+    starts.sort_by(|a, b| b.score.total_cmp(&a.score));
+    let mut found: Vec<Scored> = Vec::new();
+    let mut tried: Vec<DMat3> = Vec::new();
+    for start in starts {
+        if tried.len() >= REFINED {
+            break;
+        }
+        if tried.iter().any(|f| is_same(f, &start.frame)) {
+            continue;
+        }
+        tried.push(start.frame);
+        let frame = refined(evidence, start.frame);
+        if !found.iter().any(|f| is_same(&f.frame, &frame)) {
+            found.push(Scored {
+                score: score(evidence, &frame, 1.0),
+                frame,
+            });
+        }
+    }
+    found.sort_by(|a, b| b.score.total_cmp(&a.score));
+    found
+}
+
+/// What a frame explains, in natural logarithms of likelihood; errors are `loose` times as large
+/// as the drawing's for a frame that is not refined.
+fn score(evidence: &Evidence, frame: &DMat3, loose: f64) -> f64 {
+    let straight: f64 = evidence
+        .segments
+        .iter()
+        .map(|s| (0..3).map(|k| gain(evidence, s, frame.col(k), loose)).fold(0.0, f64::max))
+        .sum();
+    let round: f64 = evidence
+        .circles
+        .iter()
+        .map(|g| {
+            let gains = (0..3).map(|k| round_gain(evidence, g, frame.col(k), loose));
+            gains.fold(0.0, f64::max) * g.edges.len() as f64
+        })
+        .sum();
+    let flat = columns(frame).iter().filter(|a| a.z.abs() < FLATTEST).count() as f64;
+    straight + round - FLAT * flat
+}
+
+/// How much better an edge is explained by an axis than by chance.
+fn gain(evidence: &Evidence, segment: &Segment, axis: DVec3, loose: f64) -> f64 {
+    let drawn = axis.truncate();
+    let length = drawn.length();
+    if length < 1e-3 {
+        return 0.0;
+    }
+    let error = std::f64::consts::SQRT_2 * evidence.precision * loose;
+    let off = segment.direction.perp_dot(drawn) / length * segment.length;
+    // Of three axes the best is taken.
+    let chance = PI * segment.length / (3.0 * error * TAU.sqrt());
+    chance.ln() - 0.5 * (off / error).powi(2)
+}
+
+fn round_gain(evidence: &Evidence, group: &CircleGroup, axis: DVec3, loose: f64) -> f64 {
+    // No circle by hand tells its axis better than this.
+    let error = (group.error * loose).max(2.0 * evidence.precision / evidence.size);
+    let off = group.fold(axis).0.distance(group.normal) / error;
+    (-(3.0 * error * error).ln()).min(ROUND_MOST) - 0.5 * off * off
+}
+
+/// Gauss-Newton on SO(3) over what a frame explains at each step.
+fn refined(evidence: &Evidence, mut frame: DMat3) -> DMat3 {
+    for step in 0..STEPS {
+        let loose = if step < STEPS / 2 { 2.0 } else { 1.0 };
+        let (mut information, mut right) = (DMat3::from_diagonal(DVec3::splat(1.0)), DVec3::ZERO);
+        let mut add = |residual: f64, slope: DVec3, error: f64| {
+            let s = slope / error;
+            information += DMat3::from_cols(s * s.x, s * s.y, s * s.z);
+            right -= s * (residual / error);
+        };
+        for s in &evidence.segments {
+            let Some(k) = best(|k| gain(evidence, s, frame.col(k), loose)) else {
+                continue;
+            };
+            let axis = frame.col(k);
+            let drawn: DVec2 = axis.truncate();
+            let (unit, length) = (drawn.normalize(), drawn.length());
+            let across = unit.perp();
+            // d(axis) = w x axis; its part across the drawn direction, by w.
+            let slope = DVec3::new(
+                -across.y * axis.z,
+                across.x * axis.z,
+                across.y * axis.x - across.x * axis.y,
+            );
+            let slope = slope * (s.direction.dot(unit) / length);
+            let error = std::f64::consts::SQRT_2 * evidence.precision / s.length;
+            add(s.direction.perp_dot(unit), slope, error);
+        }
+        for g in &evidence.circles {
+            let Some(k) = best(|k| round_gain(evidence, g, frame.col(k), loose)) else {
+                continue;
+            };
+            let n = frame.col(k);
+            let (folded, signs) = g.fold(n);
+            let off = folded - g.normal;
+            let error = g.error.max(2.0 * evidence.precision / evidence.size);
+            add(off.x, signs.x * DVec3::new(0.0, n.z, -n.y), error);
+            add(off.y, signs.y * DVec3::new(-n.z, 0.0, n.x), error);
+            add(off.z, signs.z * DVec3::new(n.y, -n.x, 0.0), error);
+        }
+        let turn = information.inverse() * right;
+        let turn = turn.clamp_length_max(0.2);
+        if !turn.is_finite() {
+            break;
+        }
+        frame = DMat3::from_quat(DQuat::from_scaled_axis(turn)) * frame;
+    }
+    frame
+}
+
+/// The axis of the largest positive gain.
+fn best(gain: impl Fn(usize) -> f64) -> Option<usize> {
+    let found = (0..3).map(|k| (gain(k), k)).max_by(|a, b| a.0.total_cmp(&b.0));
+    found.filter(|(g, _)| *g > 0.0).map(|(_, k)| k)
+}
+
+/// Which edges and circles follow a frame's axes, where no other axis would do.
+fn reading(evidence: &Evidence, frame: &DMat3) -> Directions {
+    let mut axes = columns(frame).map(|direction| Axis {
+        direction: towards_viewer(direction),
+        edges: Vec::new(),
+        circles: Vec::new(),
+    });
+    let clear = |gains: [f64; 3]| {
+        let k = best(|k| gains[k])?;
+        let rival = (0..3).filter(|j| *j != k).map(|j| gains[j]).fold(0.0, f64::max);
+        (gains[k] > rival + CLEAR).then_some(k)
+    };
+    let mut information: f64 = 0.0;
+    for s in &evidence.segments {
+        if let Some(k) = clear([0, 1, 2].map(|k| gain(evidence, s, frame.col(k), 1.0))) {
+            axes[k].edges.push(s.edge);
+            information += (s.length / evidence.precision).powi(2);
+        }
+    }
+    for g in &evidence.circles {
+        if let Some(k) = clear([0, 1, 2].map(|k| round_gain(evidence, g, frame.col(k), 1.0))) {
+            axes[k].circles.extend(&g.edges);
+            information += g.error.max(evidence.precision / evidence.size).powi(-2);
+        }
+    }
+    Directions {
+        axes: axes.into(),
+        slanted: Vec::new(),
+        camera: Camera::Parallel,
+        error: 2.0 * information.max(1.0).sqrt().recip(),
+        precision: evidence.precision,
+    }
+}
+
+/// Whether two frames have nearly the same axes, as they are or reversed in depth.
+fn is_same(a: &DMat3, b: &DMat3) -> bool {
+    const NEAR: f64 = 0.04;
+    [1.0, -1.0].iter().any(|&sign| {
+        columns(b).iter().all(|v| {
+            let v = DVec3::new(v.x, v.y, sign * v.z);
+            columns(a).iter().any(|u| u.cross(v).length() < NEAR)
+        })
+    })
+}
