@@ -77,8 +77,7 @@ pub fn lift(
     if matches!(&exact, Err(crate::Error::Cancelled)) {
         return exact;
     }
-    let precision = Directions::estimate(drawing).ok().map(|d| d.precision);
-    if regular::is_wanted(drawing, exact.as_ref().ok(), precision)
+    if regular::is_wanted(drawing, exact.as_ref().ok())
         && let Ok(lift) = regular::lift(drawing, faces, options)
     {
         return Ok(lift);

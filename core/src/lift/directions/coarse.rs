@@ -17,7 +17,7 @@ use crate::drawing::Drawing;
 use crate::lift::Camera;
 
 /// Standard errors of coordinates that are tried, in units of the drawing's size.
-const PRECISIONS: [f64; 6] = [5e-4, 1e-3, 2e-3, 4e-3, 8e-3, 1.6e-2];
+const PRECISIONS: [f64; 9] = [1e-6, 1e-5, 1e-4, 5e-4, 1e-3, 2e-3, 4e-3, 8e-3, 1.6e-2];
 
 /// Hypotheses that are refined.
 const REFINED: usize = 16;
@@ -41,8 +41,14 @@ const FLATTEST: f64 = 0.12;
 /// An edge that follows no axis by this much better than another follows neither.
 const CLEAR: f64 = 1.5;
 
-/// Most that one circle says.
-const ROUND_MOST: f64 = 12.0;
+/// No circle by hand tells its axis better than to this many radians.
+const ROUND: f64 = 0.01;
+
+/// Parallel circles count as so many at most: they tell the same direction.
+const CIRCLES: f64 = 3.0;
+
+/// A frame is tried again with the noise this many times as large.
+const LOUDER: f64 = 2.5;
 
 /// A frame with what it explains.
 struct Scored {
@@ -56,21 +62,29 @@ pub(super) fn candidates(drawing: &Drawing) -> Vec<Directions> {
     for relative in PRECISIONS {
         let evidence = Evidence::new(drawing, relative * size);
         let all = scored(&evidence);
-        let top = |all: &[Scored]| all.first().map_or(0.0, |s| s.score);
-        if top(&all) > best.as_ref().map_or(0.0, |b| top(&b.1)) {
+        let top = |all: &[Scored]| all.first().map_or(f64::NEG_INFINITY, |s| s.score);
+        if best.as_ref().is_none_or(|b| top(&all) > top(&b.1)) {
             best = Some((evidence, all));
         }
     }
-    if std::env::var_os("DBG").is_some() { for s in best.iter().flat_map(|b| &b.1).take(4) { eprintln!("  frame score {:.1} minz {:.3}", s.score, columns(&s.frame).iter().map(|a| a.z.abs()).fold(9.0, f64::min)); } }
     let Some((evidence, all)) = best else {
         return Vec::new();
     };
-    let least = RIVAL * all.first().map_or(0.0, |s| s.score);
-    all.iter()
-        .take_while(|s| s.score >= least)
+    let least = RIVAL * all.first().map_or(0.0, |s| s.score.max(0.0));
+    let mut readings: Vec<Directions> = all
+        .iter()
+        .enumerate()
+        .take_while(|(i, s)| *i == 0 || s.score >= least)
         .take(READINGS)
-        .map(|s| reading(&evidence, &s.frame).seen_from_above())
-        .collect()
+        .map(|(_, s)| reading(&evidence, &s.frame).seen_from_above())
+        .collect();
+    // Few edges agree with each other by chance more than with what they were meant to be.
+    let louder = Evidence::new(drawing, LOUDER * evidence.precision);
+    if let Some(first) = all.first() {
+        let again = reading(&louder, &first.frame).seen_from_above();
+        readings.insert(1.min(readings.len()), again);
+    }
+    readings
 }
 
 /// Frames, the one that explains most first.
@@ -118,11 +132,13 @@ fn score(evidence: &Evidence, frame: &DMat3, loose: f64) -> f64 {
         .iter()
         .map(|g| {
             let gains = (0..3).map(|k| round_gain(evidence, g, frame.col(k), loose));
-            gains.fold(0.0, f64::max) * g.edges.len() as f64
+            gains.fold(0.0, f64::max) * (g.edges.len() as f64).min(CIRCLES)
         })
         .sum();
     let flat = columns(frame).iter().filter(|a| a.z.abs() < FLATTEST).count() as f64;
-    straight + round - FLAT * flat
+    // Three edges fit some frame whatever they are.
+    let fitted = 3.0 * (0.3 * evidence.size / evidence.precision).ln();
+    straight + round - FLAT * flat - fitted
 }
 
 /// How much better an edge is explained by an axis than by chance.
@@ -140,10 +156,9 @@ fn gain(evidence: &Evidence, segment: &Segment, axis: DVec3, loose: f64) -> f64 
 }
 
 fn round_gain(evidence: &Evidence, group: &CircleGroup, axis: DVec3, loose: f64) -> f64 {
-    // No circle by hand tells its axis better than this.
-    let error = (group.error * loose).max(2.0 * evidence.precision / evidence.size);
+    let error = (group.error * loose).max(ROUND);
     let off = group.fold(axis).0.distance(group.normal) / error;
-    (-(3.0 * error * error).ln()).min(ROUND_MOST) - 0.5 * off * off
+    -(3.0 * error * error).ln() - 0.5 * off * off
 }
 
 /// Gauss-Newton on SO(3) over what a frame explains at each step.
@@ -181,7 +196,7 @@ fn refined(evidence: &Evidence, mut frame: DMat3) -> DMat3 {
             let n = frame.col(k);
             let (folded, signs) = g.fold(n);
             let off = folded - g.normal;
-            let error = g.error.max(2.0 * evidence.precision / evidence.size);
+            let error = g.error.max(ROUND);
             add(off.x, signs.x * DVec3::new(0.0, n.z, -n.y), error);
             add(off.y, signs.y * DVec3::new(-n.z, 0.0, n.x), error);
             add(off.z, signs.z * DVec3::new(n.y, -n.x, 0.0), error);

@@ -3,7 +3,7 @@
 use glam::{DMat3, DVec2, DVec3};
 
 use super::fit::{Fitted, fit};
-use super::problem::{Body, Condition, Dir, Point, Problem, Shape, angle_of, triple};
+use super::problem::{Body, Condition, Dir, Point, Problem, Shape, angle_of};
 use super::rounds;
 use crate::drawing::SurfaceKind;
 use crate::lift::heights::Heights;
@@ -22,6 +22,8 @@ const CLOSED: usize = 9;
 pub(super) struct Draft<'a, 'b> {
     pub(super) sheet: &'a Sheet<'b>,
     pub(super) problem: Problem,
+    /// The problem as it was before the last fit, to start from again.
+    pub(super) start: Problem,
     /// Body of every face.
     pub(super) body_of: Vec<usize>,
     /// Drawing units per unit of the problem.
@@ -66,6 +68,7 @@ impl<'a, 'b> Draft<'a, 'b> {
         });
         let mut draft = Self {
             sheet,
+            start: problem.clone(),
             problem,
             body_of: vec![0; sheet.faces.len()],
             size,
@@ -80,18 +83,13 @@ impl<'a, 'b> Draft<'a, 'b> {
     }
 
     pub(super) fn fit(&mut self) -> Result<Fitted, LiftError> {
+        self.start = self.problem.clone();
         fit(&mut self.problem)
     }
 
     /// A vertex or other point in the model's axes.
     pub(super) fn place(&self, point: usize) -> DVec3 {
         self.problem.place(point, &self.problem.x)
-    }
-
-    /// Straight edges of a face.
-    pub(super) fn straight(&self, face: usize) -> impl Iterator<Item = usize> + '_ {
-        let edges = self.sheet.edges_of(face).iter().copied();
-        edges.filter(|&e| self.sheet.is_straight(e))
     }
 
     fn add_planes(&mut self) {
@@ -254,10 +252,5 @@ impl<'a, 'b> Draft<'a, 'b> {
     /// Kind of a face.
     pub(super) fn kind(&self, face: usize) -> SurfaceKind {
         self.sheet.faces[face].kind
-    }
-
-    /// The three numbers of a point that starts at a parameter.
-    pub(super) fn triple(&self, at: usize) -> DVec3 {
-        triple(&self.problem.x, at)
     }
 }

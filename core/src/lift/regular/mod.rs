@@ -20,7 +20,7 @@ pub use report::{Regular, Snap};
 
 use super::directions::Directions;
 use super::sheet::Sheet;
-use super::{Lift, LiftError, LiftOptions, solve};
+use super::{Lift, LiftError, LiftMethod, LiftOptions, solve};
 use crate::drawing::{Curve2, Drawing, Projection};
 use crate::identify::Face;
 use draft::Draft;
@@ -36,6 +36,9 @@ const BAD: f64 = 6.0;
 
 /// A drawing whose coordinates are off by less than this share of its size is exact enough.
 const EXACT: f64 = 3e-4;
+
+/// A drawing that is explained to this share of its size is exact.
+const SHARP: f64 = 2e-5;
 
 /// What a drawing that no exact reading explains was meant to be.
 ///
@@ -54,7 +57,7 @@ pub(super) fn lift(
     let mut refusal = LiftError::NoDirections("no reading".into());
     for reading in readings {
         if reading.precision < EXACT * drawing.size() {
-            continue;
+            break;
         }
         let reading = if options.flip { reading.reversed() } else { reading };
         let drawn = recognised(drawing, CURVE_ERRORS * reading.precision);
@@ -76,11 +79,13 @@ pub(super) fn lift(
     best.map(|(_, lift)| lift).ok_or(refusal)
 }
 
-/// Whether the lift of a drawing leaves it as inexact as one by hand.
-pub(super) fn is_wanted(drawing: &Drawing, lift: Option<&Lift>, precision: Option<f64>) -> bool {
-    let coarse = precision.is_none_or(|p| p > EXACT * drawing.size());
-    let inexact = |l: &Lift| l.residual > EXACT * drawing.size() || !l.conflicts.is_empty();
-    coarse && lift.is_none_or(inexact)
+/// Whether a drawing may be inexact, from its lift as it is drawn.
+pub(super) fn is_wanted(drawing: &Drawing, lift: Option<&Lift>) -> bool {
+    let exact = |l: &Lift| {
+        let explained = Directions::estimate(drawing).is_ok_and(|d| d.precision < SHARP * drawing.size());
+        l.method == LiftMethod::Exact && l.conflicts.is_empty() && explained
+    };
+    !lift.is_some_and(exact)
 }
 
 /// The drawing with curves recognised that are ellipses within its noise.

@@ -1,12 +1,400 @@
-//! What is decided after a first fit: which directions, offsets and radii are one.
+//! What is decided after a first fit: conditions that contradict each other are given up, then
+//! directions, offsets, axes and radii that are nearly one become one.
+//!
+//! Each decision has to leave the drawing within its noise: a plane that turns may not take its
+//! corners farther than [`ERRORS`] errors away, and if the fit becomes much worse the decisions of
+//! that kind are taken back.
+
+use std::f64::consts::PI;
+
+use glam::DVec3;
 
 use super::draft::Draft;
 use super::fit::{Fitted, judged};
+use super::problem::{Condition, Dir, Problem, Shape, angle_of, turn};
 use super::report::Snap;
 use crate::lift::LiftError;
 
+/// Errors of the drawing within which things are one.
+const ERRORS: f64 = 2.5;
+
+/// No direction turns by more than this, radians.
+const LARGEST_TURN: f64 = 0.2;
+
+/// A direction that turns by less was along the other already.
+const SAME: f64 = 1e-9;
+
+/// Conditions that miss by more are not met.
+const BROKEN: f64 = 1e-7;
+
+/// Rounds of giving up conditions.
+const ROUNDS: usize = 5;
+
+/// The squared misses may become this many times as large, beside one squared error a vertex.
+const WORSE: f64 = 1.5;
+
+/// Usual angles are multiples of this, degrees.
+const STEP: f64 = 15.0;
+
 /// Decides and fits again.
 pub(super) fn settle(draft: &mut Draft<'_, '_>) -> Result<(Fitted, Vec<Snap>), LiftError> {
-    let fitted = judged(&draft.problem);
-    Ok((fitted, Vec::new()))
+    let mut fitted = judged(&draft.problem);
+    for _ in 0..ROUNDS {
+        if fitted.violation < BROKEN || !give_up(draft) {
+            break;
+        }
+        fitted = draft.fit()?;
+    }
+    for decide in [aligned, parallel, round, coplanar] {
+        let before = (draft.problem.clone(), draft.start.clone());
+        if !decide(draft) {
+            continue;
+        }
+        let refit = draft.fit();
+        let good = |new: &Fitted| {
+            let limit = WORSE * cost(draft, &fitted) + draft.sheet.drawing.vertices.len() as f64;
+            new.violation < BROKEN.max(fitted.violation) && cost(draft, new) < limit
+        };
+        match refit {
+            Ok(new) if good(&new) => fitted = new,
+            _ => (draft.problem, draft.start) = before,
+        }
+    }
+    let snapped = snapped(draft);
+    Ok((fitted, snapped))
+}
+
+/// Sum of squared misses of vertices, in errors.
+fn cost(draft: &Draft<'_, '_>, fitted: &Fitted) -> f64 {
+    let misses = fitted.misses.iter().take(draft.sheet.drawing.vertices.len());
+    misses.map(|m| (m / draft.noise).powi(2)).sum()
+}
+
+/// Gives up what stands against the conditions that miss most: a touch, an outline, or else the
+/// direction of a plane; false if there is nothing left to give up. The draft starts again then.
+fn give_up(draft: &mut Draft<'_, '_>) -> bool {
+    let value = |c: &Condition| draft.problem.value(c, &draft.problem.x).abs();
+    let worst = draft.problem.conditions.iter().map(value).fold(0.0, f64::max);
+    let is_bad = |c: &Condition| value(c) > 0.3 * worst;
+    let bad: Vec<Condition> = draft.problem.conditions.iter().copied().filter(is_bad).collect();
+    let mut bodies: Vec<usize> = bad.iter().flat_map(bodies_of).collect();
+    bodies.sort_unstable();
+    bodies.dedup();
+    let soft = |c: &Condition| !matches!(c, Condition::On { .. });
+    let given: Vec<Condition> = draft
+        .problem
+        .conditions
+        .iter()
+        .copied()
+        .filter(|c| soft(c) && bodies_of(c).iter().any(|b| bodies.contains(b)))
+        .collect();
+    draft.problem = draft.start.clone();
+    if !given.is_empty() {
+        draft.problem.conditions.retain(|c| !given.contains(c));
+        return true;
+    }
+    let mut changed = false;
+    for b in bodies {
+        let dir = draft.problem.bodies[b].dir;
+        if !matches!(draft.problem.dirs[dir], Dir::Free { .. }) {
+            let base = draft.problem.direction(dir, &draft.problem.x);
+            free(draft, b, base);
+            changed = true;
+        }
+    }
+    changed
+}
+
+fn bodies_of(condition: &Condition) -> Vec<usize> {
+    match *condition {
+        Condition::On { body, .. } => vec![body],
+        Condition::Touch { plane, round, .. } | Condition::Beside { plane, round, .. } => {
+            vec![plane, round]
+        }
+        Condition::Nestle { a, b, .. } | Condition::Between { a, b, .. } => vec![a, b],
+        Condition::Outline { round, .. } => vec![round],
+    }
+}
+
+fn free(draft: &mut Draft<'_, '_>, body: usize, base: DVec3) {
+    let at = draft.problem.add(&[0.0, 0.0]);
+    draft.problem.dirs.push(Dir::Free { base, at });
+    draft.problem.bodies[body].dir = draft.problem.dirs.len() - 1;
+}
+
+/// Bodies with a direction, the largest first, with the distance of their corners from the middle.
+fn by_extent(draft: &Draft<'_, '_>) -> Vec<(usize, f64)> {
+    let bodies = 0..draft.problem.bodies.len();
+    let mut all: Vec<(usize, f64)> = bodies
+        .filter(|&b| draft.problem.bodies[b].shape != Shape::Open && draft.faces(b).next().is_some())
+        .map(|b| {
+            let points: Vec<DVec3> = draft.corners(b).iter().map(|&v| draft.place(v)).collect();
+            let middle = points.iter().sum::<DVec3>() / points.len().max(1) as f64;
+            let reach = points.iter().map(|p| p.distance(middle)).fold(0.0, f64::max);
+            (b, reach)
+        })
+        .collect();
+    all.sort_by(|a, b| b.1.total_cmp(&a.1));
+    all
+}
+
+/// Whether a body may take another direction.
+fn may_turn(draft: &Draft<'_, '_>, reach: f64, old: DVec3, new: DVec3) -> bool {
+    let off = old.distance(new).min(old.distance(-new));
+    off < LARGEST_TURN && off * reach < ERRORS * draft.noise
+}
+
+/// Directions go to the model's axes, to right angles with one, or to usual angles.
+fn aligned(draft: &mut Draft<'_, '_>) -> bool {
+    let mut changed = false;
+    for (b, reach) in by_extent(draft) {
+        let dir = draft.problem.bodies[b].dir;
+        let old = draft.problem.direction(dir, &draft.problem.x);
+        let found = match draft.problem.dirs[dir] {
+            Dir::Fixed(_) => None,
+            Dir::Turn { axis, .. } => usual(draft, axis, reach, old),
+            Dir::Free { .. } => {
+                let axes = DVec3::AXES.into_iter();
+                let axis = axes.clone().find(|&a| may_turn(draft, reach, old, a));
+                axis.map(Dir::Fixed).or_else(|| {
+                    let across = (0..3).find(|&k| {
+                        let flat = old.reject_from_normalized(DVec3::AXES[k]).normalize_or_zero();
+                        may_turn(draft, reach, old, flat)
+                    })?;
+                    let flat = old.reject_from_normalized(DVec3::AXES[across]).normalize();
+                    usual(draft, across, reach, flat).or_else(|| {
+                        let angle = draft.problem.add(&[angle_of(across, flat)]);
+                        Some(Dir::Turn {
+                            axis: across,
+                            angle,
+                            offset: 0.0,
+                        })
+                    })
+                })
+            }
+        };
+        if let Some(new) = found {
+            let new = draft.add_dir(new);
+            turn_body(draft, b, new);
+            changed = true;
+        }
+    }
+    changed
+}
+
+/// The direction around an axis at a usual angle.
+fn usual(draft: &Draft<'_, '_>, axis: usize, reach: f64, old: DVec3) -> Option<Dir> {
+    let degrees = angle_of(axis, old).to_degrees();
+    let nearest = (degrees / STEP).round() * STEP;
+    let quarter = (nearest / 90.0).round() * 90.0 == nearest;
+    let new = if quarter {
+        // Exactly the axis.
+        turn(axis, nearest.to_radians()).round()
+    } else {
+        turn(axis, nearest / 180.0 * PI)
+    };
+    may_turn(draft, reach, old, new).then_some(Dir::Fixed(new))
+}
+
+/// Gives a body another direction, with its plane through the same middle.
+fn turn_body(draft: &mut Draft<'_, '_>, body: usize, dir: usize) {
+    draft.problem.bodies[body].dir = dir;
+    if let Shape::Plane { offset } = draft.problem.bodies[body].shape {
+        let points: Vec<DVec3> = draft.corners(body).iter().map(|&v| draft.place(v)).collect();
+        let middle = points.iter().sum::<DVec3>() / points.len().max(1) as f64;
+        draft.problem.x[offset] = draft.problem.direction(dir, &draft.problem.x).dot(middle);
+    }
+}
+
+/// Directions that no axis fixes become that of a larger body, or, around one axis, at right
+/// angles to it.
+fn parallel(draft: &mut Draft<'_, '_>) -> bool {
+    let mut changed = false;
+    let order = by_extent(draft);
+    for i in 1..order.len() {
+        let (b, reach) = order[i];
+        let dir = draft.problem.bodies[b].dir;
+        if matches!(draft.problem.dirs[dir], Dir::Fixed(_)) {
+            continue;
+        }
+        let old = draft.problem.direction(dir, &draft.problem.x);
+        let mut found = None;
+        for &(other, _) in &order[..i] {
+            let twin = draft.problem.bodies[other].dir;
+            let new = draft.problem.direction(twin, &draft.problem.x);
+            if twin == dir {
+                break;
+            }
+            if may_turn(draft, reach, old, new) {
+                found = Some(draft.problem.dirs[twin]);
+                break;
+            }
+            if let Dir::Turn { axis, angle, offset } = draft.problem.dirs[twin] {
+                let square = turn(axis, draft.problem.x[angle] + offset + PI / 2.0);
+                if may_turn(draft, reach, old, square) {
+                    let offset = offset + PI / 2.0;
+                    found = Some(Dir::Turn { axis, angle, offset });
+                    break;
+                }
+            }
+        }
+        if let Some(new) = found {
+            let new = draft.add_dir(new);
+            turn_body(draft, b, new);
+            changed = true;
+        }
+    }
+    changed
+}
+
+/// Cylinders of one direction get one axis, and one radius.
+fn round(draft: &mut Draft<'_, '_>) -> bool {
+    let limit = ERRORS * draft.noise;
+    let mut changed = false;
+    let order: Vec<usize> = by_extent(draft)
+        .into_iter()
+        .map(|o| o.0)
+        .filter(|&b| draft.is_round(b))
+        .collect();
+    for i in 1..order.len() {
+        let (Some((dir, place, radius)), b) = (cylinder(&draft.problem, order[i]), order[i]) else {
+            continue;
+        };
+        let x = &draft.problem.x;
+        let axis = draft.problem.direction(dir, x);
+        let center = |at: usize| DVec3::new(x[at], x[at + 1], x[at + 2]);
+        let others = order[..i].iter().filter_map(|&o| cylinder(&draft.problem, o));
+        let others: Vec<(usize, usize, usize)> = others.collect();
+        let coaxial = others.iter().find(|o| {
+            let along = draft.problem.direction(o.0, x).cross(axis).length() < SAME;
+            let apart = (center(o.1) - center(place)).reject_from_normalized(axis).length();
+            along && o.1 != place && apart < limit.min(0.3 * x[radius].max(x[o.2]))
+        });
+        let equal = others.iter().find(|o| {
+            let (r, s) = (x[radius].abs(), x[o.2].abs());
+            o.2 != radius && (r - s).abs() < limit.min(0.15 * r.min(s))
+        });
+        let (coaxial, equal) = (coaxial.map(|o| o.1), equal.map(|o| o.2));
+        if coaxial.is_some() || equal.is_some() {
+            draft.problem.bodies[b].shape = Shape::Cylinder {
+                place: coaxial.unwrap_or(place),
+                radius: equal.unwrap_or(radius),
+            };
+            changed = true;
+        }
+    }
+    changed
+}
+
+/// Direction, place and radius of a cylinder.
+fn cylinder(problem: &Problem, body: usize) -> Option<(usize, usize, usize)> {
+    match problem.bodies[body].shape {
+        Shape::Cylinder { place, radius } => Some((problem.bodies[body].dir, place, radius)),
+        _ => None,
+    }
+}
+
+/// Planes of one direction at one height become one, unless an edge leads from one to the other:
+/// then the step between them is meant.
+fn coplanar(draft: &mut Draft<'_, '_>) -> bool {
+    let mut changed = false;
+    let order: Vec<usize> = by_extent(draft)
+        .into_iter()
+        .map(|o| o.0)
+        .filter(|&b| draft.is_plane(b))
+        .collect();
+    let corners: Vec<Vec<usize>> = order.iter().map(|&b| draft.corners(b)).collect();
+    let steps = |i: usize, j: usize| {
+        draft.sheet.drawing.edges.iter().any(|e| {
+            let [v, w] = e.v;
+            let from = |c: &[usize], v: usize| c.binary_search(&v).is_ok();
+            (from(&corners[i], v) && from(&corners[j], w) && !from(&corners[i], w))
+                || (from(&corners[i], w) && from(&corners[j], v) && !from(&corners[i], v))
+        })
+    };
+    let mut merged = Vec::new();
+    for i in 1..order.len() {
+        for j in 0..i {
+            let (b, other) = (draft.problem.bodies[order[i]], draft.problem.bodies[order[j]]);
+            let (Shape::Plane { offset }, Shape::Plane { offset: twin }) = (b.shape, other.shape)
+            else {
+                continue;
+            };
+            let apart = (draft.problem.x[offset] - draft.problem.x[twin]).abs();
+            if b.dir == other.dir && offset != twin && apart < draft.noise && !steps(i, j) {
+                merged.push((order[i], twin));
+                break;
+            }
+        }
+    }
+    for (b, twin) in merged {
+        draft.problem.bodies[b].shape = Shape::Plane { offset: twin };
+        changed = true;
+    }
+    changed
+}
+
+/// What the draft has in common now.
+fn snapped(draft: &Draft<'_, '_>) -> Vec<Snap> {
+    let problem = &draft.problem;
+    let mut all = Vec::new();
+    let faces_of = |bodies: &[usize]| {
+        let mut faces: Vec<usize> = bodies.iter().flat_map(|&b| draft.faces(b)).collect();
+        faces.sort_unstable();
+        faces
+    };
+    let used: Vec<usize> = (0..problem.bodies.len())
+        .filter(|&b| problem.bodies[b].shape != Shape::Open && draft.faces(b).next().is_some())
+        .collect();
+    let with = |test: &dyn Fn(usize) -> bool| -> Vec<usize> {
+        used.iter().copied().filter(|&b| test(b)).collect()
+    };
+    let square = with(&|b| matches!(problem.dirs[problem.bodies[b].dir], Dir::Fixed(d) if DVec3::AXES.contains(&d.abs())));
+    if !square.is_empty() {
+        all.push(Snap::Square { faces: faces_of(&square) });
+    }
+    for (i, dir) in problem.dirs.iter().enumerate() {
+        let same = with(&|b| problem.bodies[b].dir == i);
+        match dir {
+            Dir::Fixed(d) if !same.is_empty() && !DVec3::AXES.contains(&d.abs()) => {
+                let axis = (0..3).min_by(|&j, &k| d[j].abs().total_cmp(&d[k].abs())).unwrap_or(0);
+                let degrees = (angle_of(axis, *d).to_degrees().rem_euclid(180.0) / STEP).round() * STEP;
+                all.push(Snap::Angle { degrees, faces: faces_of(&same) });
+            }
+            Dir::Turn { .. } | Dir::Free { .. } if same.len() > 1 => {
+                all.push(Snap::Parallel { faces: faces_of(&same) });
+            }
+            _ => {}
+        }
+    }
+    let mut groups = |key: &dyn Fn(usize) -> Option<usize>, snap: fn(Vec<usize>) -> Snap| {
+        let mut keys: Vec<usize> = used.iter().filter_map(|&b| key(b)).collect();
+        keys.sort_unstable();
+        keys.dedup();
+        for k in keys {
+            let same = with(&|b| key(b) == Some(k));
+            if same.len() > 1 {
+                all.push(snap(faces_of(&same)));
+            }
+        }
+    };
+    let offset = |b: usize| match problem.bodies[b].shape {
+        Shape::Plane { offset } => Some(offset),
+        _ => None,
+    };
+    groups(&offset, |faces| Snap::Coplanar { faces });
+    groups(&|b| Some(cylinder(problem, b)?.1), |faces| Snap::Coaxial { faces });
+    groups(&|b| Some(cylinder(problem, b)?.2), |faces| Snap::EqualRadius { faces });
+    let touching = problem.conditions.iter().flat_map(|c| match *c {
+        Condition::Touch { round, .. } => vec![round],
+        Condition::Nestle { a, b, .. } => vec![a, b],
+        _ => Vec::new(),
+    });
+    let mut touching: Vec<usize> = touching.collect();
+    touching.sort_unstable();
+    touching.dedup();
+    if !touching.is_empty() {
+        all.push(Snap::Tangent { faces: faces_of(&touching) });
+    }
+    all
 }
