@@ -161,7 +161,6 @@ fn measure_solid(
     fail: &mut dyn FnMut(&'static str, String),
 ) {
     let start = Instant::now();
-    if std::env::var_os("DBG").is_some() { eprintln!("DRAW {}", drawing.id); for d in &faceformer::lift::directions::Directions::estimate(drawing) { eprintln!("  exact est prec {}", d.precision);} }
     let lifted = match lift(
         drawing,
         &found.faces,
@@ -176,10 +175,6 @@ fn measure_solid(
     measured.lifted = error <= DEPTH_TOLERANCE;
     if !measured.lifted {
         fail("depth", format!("the depths are up to {error:.1e} off"));
-    }
-    if std::env::var_os("DBG").is_some() {
-        let off = |sign: f64| lifted.directions.iter().map(|d| truth.directions.iter().map(|t| { let t = glam::DVec3::new(t.x,t.y,sign*t.z); d.cross(t).length() }).fold(9.0, f64::min)).fold(0.0, f64::max);
-        eprintln!("DBG {} depth {:.3} dirs {} off {:.4} method {:?} conflicts {} minz {:.3} residual {:.4}", drawing.id, error, lifted.directions.len(), off(1.0).min(off(-1.0)), lifted.method, lifted.conflicts.len(), lifted.directions.iter().map(|d| d.z.abs()).fold(9.0,f64::min), lifted.residual);
     }
     let start = Instant::now();
     let plan = match plan(drawing, &found.faces, &lifted, &PlanOptions::default()) {

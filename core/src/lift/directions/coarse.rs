@@ -125,17 +125,24 @@ fn score(evidence: &Evidence, frame: &DMat3, loose: f64) -> f64 {
     let straight: f64 = evidence
         .segments
         .iter()
-        .map(|s| (0..3).map(|k| gain(evidence, s, frame.col(k), loose)).fold(0.0, f64::max))
+        .map(|s| {
+            (0..3)
+                .map(|k| gain(evidence, s, frame.col(k), loose))
+                .fold(0.0, f64::max)
+        })
         .sum();
     let round: f64 = evidence
         .circles
         .iter()
         .map(|g| {
-            let gains = (0..3).map(|k| round_gain(evidence, g, frame.col(k), loose));
+            let gains = (0..3).map(|k| round_gain(g, frame.col(k), loose));
             gains.fold(0.0, f64::max) * (g.edges.len() as f64).min(CIRCLES)
         })
         .sum();
-    let flat = columns(frame).iter().filter(|a| a.z.abs() < FLATTEST).count() as f64;
+    let flat = columns(frame)
+        .iter()
+        .filter(|a| a.z.abs() < FLATTEST)
+        .count() as f64;
     // Three edges fit some frame whatever they are.
     let fitted = 3.0 * (0.3 * evidence.size / evidence.precision).ln();
     straight + round - FLAT * flat - fitted
@@ -155,7 +162,7 @@ fn gain(evidence: &Evidence, segment: &Segment, axis: DVec3, loose: f64) -> f64 
     chance.ln() - 0.5 * (off / error).powi(2)
 }
 
-fn round_gain(evidence: &Evidence, group: &CircleGroup, axis: DVec3, loose: f64) -> f64 {
+fn round_gain(group: &CircleGroup, axis: DVec3, loose: f64) -> f64 {
     let error = (group.error * loose).max(ROUND);
     let off = group.fold(axis).0.distance(group.normal) / error;
     -(3.0 * error * error).ln() - 0.5 * off * off
@@ -190,7 +197,7 @@ fn refined(evidence: &Evidence, mut frame: DMat3) -> DMat3 {
             add(s.direction.perp_dot(unit), slope, error);
         }
         for g in &evidence.circles {
-            let Some(k) = best(|k| round_gain(evidence, g, frame.col(k), loose)) else {
+            let Some(k) = best(|k| round_gain(g, frame.col(k), loose)) else {
                 continue;
             };
             let n = frame.col(k);
@@ -213,7 +220,9 @@ fn refined(evidence: &Evidence, mut frame: DMat3) -> DMat3 {
 
 /// The axis of the largest positive gain.
 fn best(gain: impl Fn(usize) -> f64) -> Option<usize> {
-    let found = (0..3).map(|k| (gain(k), k)).max_by(|a, b| a.0.total_cmp(&b.0));
+    let found = (0..3)
+        .map(|k| (gain(k), k))
+        .max_by(|a, b| a.0.total_cmp(&b.0));
     found.filter(|(g, _)| *g > 0.0).map(|(_, k)| k)
 }
 
@@ -226,7 +235,10 @@ fn reading(evidence: &Evidence, frame: &DMat3) -> Directions {
     });
     let clear = |gains: [f64; 3]| {
         let k = best(|k| gains[k])?;
-        let rival = (0..3).filter(|j| *j != k).map(|j| gains[j]).fold(0.0, f64::max);
+        let rival = (0..3)
+            .filter(|j| *j != k)
+            .map(|j| gains[j])
+            .fold(0.0, f64::max);
         (gains[k] > rival + CLEAR).then_some(k)
     };
     let mut information: f64 = 0.0;
@@ -237,7 +249,7 @@ fn reading(evidence: &Evidence, frame: &DMat3) -> Directions {
         }
     }
     for g in &evidence.circles {
-        if let Some(k) = clear([0, 1, 2].map(|k| round_gain(evidence, g, frame.col(k), 1.0))) {
+        if let Some(k) = clear([0, 1, 2].map(|k| round_gain(g, frame.col(k), 1.0))) {
             axes[k].circles.extend(&g.edges);
             information += g.error.max(evidence.precision / evidence.size).powi(-2);
         }

@@ -41,7 +41,10 @@ impl<'a, 'b> Draft<'a, 'b> {
         let size = sheet.size;
         let axes: Vec<DVec3> = sheet.directions.axes.iter().map(|a| a.direction).collect();
         let first = axes.first().copied().unwrap_or(DVec3::Z);
-        let second = axes.get(1).copied().unwrap_or(first.any_orthonormal_vector());
+        let second = axes
+            .get(1)
+            .copied()
+            .unwrap_or(first.any_orthonormal_vector());
         let second = second.reject_from_normalized(first).normalize();
         let rotation = DMat3::from_cols(first, second, first.cross(second));
         let camera = match *sheet.camera() {
@@ -107,7 +110,9 @@ impl<'a, 'b> Draft<'a, 'b> {
             let body = self.add_body(Shape::Plane { offset }, dir);
             self.body_of[face] = body;
             for &v in &self.sheet.corners[face] {
-                self.problem.conditions.push(Condition::On { point: v, body });
+                self.problem
+                    .conditions
+                    .push(Condition::On { point: v, body });
             }
         }
     }

@@ -52,7 +52,9 @@ pub(super) fn fit(problem: &mut Problem) -> Result<Fitted, LiftError> {
             }
         }
         if violation.is_nan() {
-            return Err(LiftError::Solver("the regular drawing is not finite".into()));
+            return Err(LiftError::Solver(
+                "the regular drawing is not finite".into(),
+            ));
         }
         let settled = longest < 1e-9;
         if step > 2 && violation < EXACT && (settled || longest < 1e-4) {

@@ -15,6 +15,8 @@ mod redraw;
 mod report;
 mod rounds;
 mod snaps;
+#[cfg(test)]
+mod tests;
 
 pub use report::{Regular, Snap};
 
@@ -59,11 +61,14 @@ pub(super) fn lift(
         if reading.precision < EXACT * drawing.size() {
             break;
         }
-        let reading = if options.flip { reading.reversed() } else { reading };
+        let reading = if options.flip {
+            reading.reversed()
+        } else {
+            reading
+        };
         let drawn = recognised(drawing, CURVE_ERRORS * reading.precision);
         match attempt(&drawn, faces, &reading) {
             Ok((cost, lift)) => {
-                if std::env::var_os("DBG").is_some() { eprintln!("  reading prec {:.4} cost/v {:.2} conflicts {} violation {:.2e} edges {:?}", reading.precision, cost / drawing.vertices.len() as f64, lift.conflicts.len(), lift.residual, reading.axes.iter().map(|a| (a.edges.len(), a.circles.len())).collect::<Vec<_>>()); }
                 // Readings come by likelihood, and one that says less always fits.
                 let bad = cost > BAD * drawing.vertices.len() as f64;
                 if best.as_ref().is_none_or(|(least, _)| cost < 0.5 * least) {
@@ -73,7 +78,7 @@ pub(super) fn lift(
                     break;
                 }
             }
-            Err(error) => { if std::env::var_os("DBG").is_some() { eprintln!("  reading err {error}"); } refusal = error }
+            Err(error) => refusal = error,
         }
     }
     best.map(|(_, lift)| lift).ok_or(refusal)
@@ -82,7 +87,8 @@ pub(super) fn lift(
 /// Whether a drawing may be inexact, from its lift as it is drawn.
 pub(super) fn is_wanted(drawing: &Drawing, lift: Option<&Lift>) -> bool {
     let exact = |l: &Lift| {
-        let explained = Directions::estimate(drawing).is_ok_and(|d| d.precision < SHARP * drawing.size());
+        let explained =
+            Directions::estimate(drawing).is_ok_and(|d| d.precision < SHARP * drawing.size());
         l.method == LiftMethod::Exact && l.conflicts.is_empty() && explained
     };
     !lift.is_some_and(exact)

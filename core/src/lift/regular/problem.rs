@@ -59,13 +59,29 @@ pub(super) enum Condition {
     /// A point lies on a surface.
     On { point: usize, body: usize },
     /// A plane touches a cylinder on the side of its normal, or the other.
-    Touch { plane: usize, round: usize, side: f64 },
+    Touch {
+        plane: usize,
+        round: usize,
+        side: f64,
+    },
     /// A point lies where a plane touches a cylinder.
-    Beside { point: usize, plane: usize, round: usize },
+    Beside {
+        point: usize,
+        plane: usize,
+        round: usize,
+    },
     /// Two cylinders of one direction touch: from outside, or one in the other.
     Nestle { a: usize, b: usize, outside: bool },
     /// A point lies where two such cylinders touch.
     Between { point: usize, a: usize, b: usize },
+    /// A straight edge between two points of a cylinder follows its axis, across one of two
+    /// directions.
+    Along {
+        from: usize,
+        to: usize,
+        round: usize,
+        second: bool,
+    },
     /// A cylinder is seen edge-on at a point.
     Outline { point: usize, round: usize },
 }
@@ -163,9 +179,7 @@ impl Problem {
             _ => (DVec3::ZERO, DVec3::Z, 0.0),
         };
         match *condition {
-            Condition::On { point, body } => {
-                self.surface(body, x).distance(self.place(point, x))
-            }
+            Condition::On { point, body } => self.surface(body, x).distance(self.place(point, x)),
             Condition::Touch {
                 plane,
                 round: r,
@@ -192,6 +206,16 @@ impl Problem {
                 let ((p, axis, _), (q, _, _)) = (round(a), round(b));
                 let across = axis.cross(q - p).normalize_or_zero();
                 (self.place(point, x) - p).dot(across)
+            }
+            Condition::Along {
+                from,
+                to,
+                round: r,
+                second,
+            } => {
+                let (u, w) = round(r).1.any_orthonormal_pair();
+                let d = self.place(to, x) - self.place(from, x);
+                d.dot(if second { w } else { u })
             }
             Condition::Outline { point, round: r } => {
                 let (center, axis, _) = round(r);
@@ -229,6 +253,13 @@ impl Problem {
                 point(p);
                 [Some(a), Some(b)]
             }
+            Condition::Along {
+                from, to, round, ..
+            } => {
+                point(from);
+                point(to);
+                [Some(round), None]
+            }
             Condition::Outline { point: p, round } => {
                 point(p);
                 if self.camera.is_parallel() {
@@ -241,7 +272,9 @@ impl Problem {
             let Body { shape, dir } = self.bodies[body];
             match shape {
                 Shape::Plane { offset } => all.push(offset),
-                Shape::Cylinder { place, radius } => all.extend([place, place + 1, place + 2, radius]),
+                Shape::Cylinder { place, radius } => {
+                    all.extend([place, place + 1, place + 2, radius])
+                }
                 Shape::Open => {}
             }
             match self.dirs[dir] {

@@ -93,7 +93,9 @@ fn curves(draft: &Draft<'_, '_>, vertices: &[DVec2]) -> Vec<Vec<DVec2>> {
                 return points;
             }
             let known = |b: usize| draft.is_plane(b) || draft.is_round(b);
-            let Some([a, b]) = draft.beside(e).filter(|[a, b]| a != b && known(*a) && known(*b))
+            let Some([a, b]) = draft
+                .beside(e)
+                .filter(|[a, b]| a != b && known(*a) && known(*b))
             else {
                 return points;
             };
@@ -175,7 +177,11 @@ fn directions(draft: &Draft<'_, '_>, drawing: &Drawing, places: &[DVec3]) -> Dir
         };
         let edges = 0..drawing.edges.len();
         Axis {
-            direction: if direction.z < 0.0 { -direction } else { direction },
+            direction: if direction.z < 0.0 {
+                -direction
+            } else {
+                direction
+            },
             edges: edges.clone().filter(|&e| along(e)).collect(),
             circles: edges.filter(|&e| around(e)).collect(),
         }

@@ -70,7 +70,11 @@ impl fmt::Display for Snap {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let numbers: Vec<String> = self.faces().iter().map(|n| (n + 1).to_string()).collect();
         let word = if numbers.len() == 1 { "face" } else { "faces" };
-        let (is, was) = if numbers.len() == 1 { ("is", "was") } else { ("are", "were") };
+        let (is, was) = if numbers.len() == 1 {
+            ("is", "was")
+        } else {
+            ("are", "were")
+        };
         write!(f, "{word} {} ", numbers.join(", "))?;
         match self {
             Self::Square { .. } => write!(f, "{was} squared with the model's axes"),

@@ -35,7 +35,10 @@ pub(super) fn add_cylinders(draft: &mut Draft<'_, '_>) {
     }
     for (body, _) in &added {
         for point in draft.corners(*body) {
-            draft.problem.conditions.push(Condition::On { point, body: *body });
+            draft
+                .problem
+                .conditions
+                .push(Condition::On { point, body: *body });
         }
     }
     for &e in &outlines {
@@ -48,7 +51,28 @@ pub(super) fn add_cylinders(draft: &mut Draft<'_, '_>) {
             draft.problem.conditions.extend(ends);
         }
     }
+    along(draft);
     touches(draft);
+}
+
+/// Straight edges of cylinders follow their axes: both ends on it are not enough.
+fn along(draft: &mut Draft<'_, '_>) {
+    for e in 0..draft.sheet.drawing.edges.len() {
+        let Some([a, b]) = draft.beside(e) else {
+            continue;
+        };
+        let round = if draft.is_round(a) { a } else { b };
+        if draft.sheet.is_straight(e) && draft.is_round(round) {
+            let [from, to] = draft.sheet.drawing.edges[e].v;
+            let across = [false, true].map(|second| Condition::Along {
+                from,
+                to,
+                round,
+                second,
+            });
+            draft.problem.conditions.extend(across);
+        }
+    }
 }
 
 /// Straight edges that part one cylinder: drawn along the tangents of the curves that end on them.
@@ -58,7 +82,9 @@ fn outlines(draft: &Draft<'_, '_>) -> Vec<usize> {
         let [f, g] = *sheet.neighbours(*e) else {
             return false;
         };
-        let cylinders = [f, g].iter().all(|&f| draft.kind(f) == SurfaceKind::Cylinder);
+        let cylinders = [f, g]
+            .iter()
+            .all(|&f| draft.kind(f) == SurfaceKind::Cylinder);
         if !(cylinders && sheet.is_straight(*e)) {
             return false;
         }
@@ -183,7 +209,9 @@ fn boundary(draft: &Draft<'_, '_>, group: &[usize], axis: DVec3) -> Vec<DVec3> {
             let Some(plane) = plane else {
                 continue;
             };
-            let normal = draft.problem.direction(draft.problem.bodies[plane].dir, &draft.problem.x);
+            let normal = draft
+                .problem
+                .direction(draft.problem.bodies[plane].dir, &draft.problem.x);
             let facing = (draft.problem.rotation * normal).z.abs();
             if facing < 0.05 || normal.dot(axis).abs() < 0.2 {
                 continue;
@@ -191,7 +219,11 @@ fn boundary(draft: &Draft<'_, '_>, group: &[usize], axis: DVec3) -> Vec<DVec3> {
             let edge = &sheet.drawing.edges[e];
             let start = draft.place(edge.v[0]);
             let inner = &edge.points[1..edge.points.len() - 1];
-            points.extend(inner.iter().map(|p| draft.onto(plane, *p / draft.size, start)));
+            points.extend(
+                inner
+                    .iter()
+                    .map(|p| draft.onto(plane, *p / draft.size, start)),
+            );
         }
     }
     points
@@ -204,7 +236,12 @@ fn circle(points: &[DVec3], axis: DVec3) -> Option<(DVec3, f64)> {
     let middle = points.iter().sum::<DVec3>() / points.len().max(1) as f64;
     let (center, radius, _) = circle_fit(points.iter().map(flat))?;
     // A circle larger than the drawing is a line with noise.
-    (radius < 3.0).then(|| (u * center.x + w * center.y + axis * axis.dot(middle), radius))
+    (radius < 3.0).then(|| {
+        (
+            u * center.x + w * center.y + axis * axis.dot(middle),
+            radius,
+        )
+    })
 }
 
 /// Planes and cylinders that touch along a straight edge: at an end the curve of the cylinder goes
@@ -245,14 +282,28 @@ fn touch(
 ) -> Option<[Condition; 3]> {
     let (p, r) = (draft.problem.bodies[plane], draft.problem.bodies[round]);
     let x = &draft.problem.x;
-    let across = draft.problem.direction(p.dir, x).dot(draft.problem.direction(r.dir, x));
+    let across = draft
+        .problem
+        .direction(p.dir, x)
+        .dot(draft.problem.direction(r.dir, x));
     if across.abs() > 0.1 {
         return None;
     }
-    let side = draft.problem.surface(plane, x).distance(draft.problem.surface(round, x).origin());
+    let side = draft
+        .problem
+        .surface(plane, x)
+        .distance(draft.problem.surface(round, x).origin());
     let side = side.signum();
-    let beside = |point| Condition::Beside { point, plane, round };
-    Some([Condition::Touch { plane, round, side }, beside(ends[0]), beside(ends[1])])
+    let beside = |point| Condition::Beside {
+        point,
+        plane,
+        round,
+    };
+    Some([
+        Condition::Touch { plane, round, side },
+        beside(ends[0]),
+        beside(ends[1]),
+    ])
 }
 
 fn nestle(draft: &Draft<'_, '_>, a: usize, b: usize, ends: [usize; 2]) -> Option<[Condition; 3]> {
@@ -264,7 +315,11 @@ fn nestle(draft: &Draft<'_, '_>, a: usize, b: usize, ends: [usize; 2]) -> Option
     let middle = draft.place(ends[0]).midpoint(draft.place(ends[1]));
     let outside = one.gradient(middle).dot(two.gradient(middle)) < 0.0;
     let between = |point| Condition::Between { point, a, b };
-    Some([Condition::Nestle { a, b, outside }, between(ends[0]), between(ends[1])])
+    Some([
+        Condition::Nestle { a, b, outside },
+        between(ends[0]),
+        between(ends[1]),
+    ])
 }
 
 /// Whether two faces go on smoothly into each other along an edge, as far as the edges at its ends

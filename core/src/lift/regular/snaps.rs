@@ -66,7 +66,10 @@ pub(super) fn settle(draft: &mut Draft<'_, '_>) -> Result<(Fitted, Vec<Snap>), L
 
 /// Sum of squared misses of vertices, in errors.
 fn cost(draft: &Draft<'_, '_>, fitted: &Fitted) -> f64 {
-    let misses = fitted.misses.iter().take(draft.sheet.drawing.vertices.len());
+    let misses = fitted
+        .misses
+        .iter()
+        .take(draft.sheet.drawing.vertices.len());
     misses.map(|m| (m / draft.noise).powi(2)).sum()
 }
 
@@ -74,9 +77,20 @@ fn cost(draft: &Draft<'_, '_>, fitted: &Fitted) -> f64 {
 /// direction of a plane; false if there is nothing left to give up. The draft starts again then.
 fn give_up(draft: &mut Draft<'_, '_>) -> bool {
     let value = |c: &Condition| draft.problem.value(c, &draft.problem.x).abs();
-    let worst = draft.problem.conditions.iter().map(value).fold(0.0, f64::max);
+    let worst = draft
+        .problem
+        .conditions
+        .iter()
+        .map(value)
+        .fold(0.0, f64::max);
     let is_bad = |c: &Condition| value(c) > 0.3 * worst;
-    let bad: Vec<Condition> = draft.problem.conditions.iter().copied().filter(is_bad).collect();
+    let bad: Vec<Condition> = draft
+        .problem
+        .conditions
+        .iter()
+        .copied()
+        .filter(is_bad)
+        .collect();
     let mut bodies: Vec<usize> = bad.iter().flat_map(bodies_of).collect();
     bodies.sort_unstable();
     bodies.dedup();
@@ -112,7 +126,7 @@ fn bodies_of(condition: &Condition) -> Vec<usize> {
             vec![plane, round]
         }
         Condition::Nestle { a, b, .. } | Condition::Between { a, b, .. } => vec![a, b],
-        Condition::Outline { round, .. } => vec![round],
+        Condition::Outline { round, .. } | Condition::Along { round, .. } => vec![round],
     }
 }
 
@@ -126,11 +140,16 @@ fn free(draft: &mut Draft<'_, '_>, body: usize, base: DVec3) {
 fn by_extent(draft: &Draft<'_, '_>) -> Vec<(usize, f64)> {
     let bodies = 0..draft.problem.bodies.len();
     let mut all: Vec<(usize, f64)> = bodies
-        .filter(|&b| draft.problem.bodies[b].shape != Shape::Open && draft.faces(b).next().is_some())
+        .filter(|&b| {
+            draft.problem.bodies[b].shape != Shape::Open && draft.faces(b).next().is_some()
+        })
         .map(|b| {
             let points: Vec<DVec3> = draft.corners(b).iter().map(|&v| draft.place(v)).collect();
             let middle = points.iter().sum::<DVec3>() / points.len().max(1) as f64;
-            let reach = points.iter().map(|p| p.distance(middle)).fold(0.0, f64::max);
+            let reach = points
+                .iter()
+                .map(|p| p.distance(middle))
+                .fold(0.0, f64::max);
             (b, reach)
         })
         .collect();
@@ -158,7 +177,9 @@ fn aligned(draft: &mut Draft<'_, '_>) -> bool {
                 let axis = axes.clone().find(|&a| may_turn(draft, reach, old, a));
                 axis.map(Dir::Fixed).or_else(|| {
                     let across = (0..3).find(|&k| {
-                        let flat = old.reject_from_normalized(DVec3::AXES[k]).normalize_or_zero();
+                        let flat = old
+                            .reject_from_normalized(DVec3::AXES[k])
+                            .normalize_or_zero();
                         may_turn(draft, reach, old, flat)
                     })?;
                     let flat = old.reject_from_normalized(DVec3::AXES[across]).normalize();
@@ -200,7 +221,11 @@ fn usual(draft: &Draft<'_, '_>, axis: usize, reach: f64, old: DVec3) -> Option<D
 fn turn_body(draft: &mut Draft<'_, '_>, body: usize, dir: usize) {
     draft.problem.bodies[body].dir = dir;
     if let Shape::Plane { offset } = draft.problem.bodies[body].shape {
-        let points: Vec<DVec3> = draft.corners(body).iter().map(|&v| draft.place(v)).collect();
+        let points: Vec<DVec3> = draft
+            .corners(body)
+            .iter()
+            .map(|&v| draft.place(v))
+            .collect();
         let middle = points.iter().sum::<DVec3>() / points.len().max(1) as f64;
         draft.problem.x[offset] = draft.problem.direction(dir, &draft.problem.x).dot(middle);
     }
@@ -229,11 +254,20 @@ fn parallel(draft: &mut Draft<'_, '_>) -> bool {
                 found = Some(draft.problem.dirs[twin]);
                 break;
             }
-            if let Dir::Turn { axis, angle, offset } = draft.problem.dirs[twin] {
+            if let Dir::Turn {
+                axis,
+                angle,
+                offset,
+            } = draft.problem.dirs[twin]
+            {
                 let square = turn(axis, draft.problem.x[angle] + offset + PI / 2.0);
                 if may_turn(draft, reach, old, square) {
                     let offset = offset + PI / 2.0;
-                    found = Some(Dir::Turn { axis, angle, offset });
+                    found = Some(Dir::Turn {
+                        axis,
+                        angle,
+                        offset,
+                    });
                     break;
                 }
             }
@@ -263,11 +297,15 @@ fn round(draft: &mut Draft<'_, '_>) -> bool {
         let x = &draft.problem.x;
         let axis = draft.problem.direction(dir, x);
         let center = |at: usize| DVec3::new(x[at], x[at + 1], x[at + 2]);
-        let others = order[..i].iter().filter_map(|&o| cylinder(&draft.problem, o));
+        let others = order[..i]
+            .iter()
+            .filter_map(|&o| cylinder(&draft.problem, o));
         let others: Vec<(usize, usize, usize)> = others.collect();
         let coaxial = others.iter().find(|o| {
             let along = draft.problem.direction(o.0, x).cross(axis).length() < SAME;
-            let apart = (center(o.1) - center(place)).reject_from_normalized(axis).length();
+            let apart = (center(o.1) - center(place))
+                .reject_from_normalized(axis)
+                .length();
             along && o.1 != place && apart < limit.min(0.3 * x[radius].max(x[o.2]))
         });
         let equal = others.iter().find(|o| {
@@ -315,7 +353,10 @@ fn coplanar(draft: &mut Draft<'_, '_>) -> bool {
     let mut merged = Vec::new();
     for i in 1..order.len() {
         for j in 0..i {
-            let (b, other) = (draft.problem.bodies[order[i]], draft.problem.bodies[order[j]]);
+            let (b, other) = (
+                draft.problem.bodies[order[i]],
+                draft.problem.bodies[order[j]],
+            );
             let (Shape::Plane { offset }, Shape::Plane { offset: twin }) = (b.shape, other.shape)
             else {
                 continue;
@@ -349,20 +390,32 @@ fn snapped(draft: &Draft<'_, '_>) -> Vec<Snap> {
     let with = |test: &dyn Fn(usize) -> bool| -> Vec<usize> {
         used.iter().copied().filter(|&b| test(b)).collect()
     };
-    let square = with(&|b| matches!(problem.dirs[problem.bodies[b].dir], Dir::Fixed(d) if DVec3::AXES.contains(&d.abs())));
+    let square = with(
+        &|b| matches!(problem.dirs[problem.bodies[b].dir], Dir::Fixed(d) if DVec3::AXES.contains(&d.abs())),
+    );
     if !square.is_empty() {
-        all.push(Snap::Square { faces: faces_of(&square) });
+        all.push(Snap::Square {
+            faces: faces_of(&square),
+        });
     }
     for (i, dir) in problem.dirs.iter().enumerate() {
         let same = with(&|b| problem.bodies[b].dir == i);
         match dir {
             Dir::Fixed(d) if !same.is_empty() && !DVec3::AXES.contains(&d.abs()) => {
-                let axis = (0..3).min_by(|&j, &k| d[j].abs().total_cmp(&d[k].abs())).unwrap_or(0);
-                let degrees = (angle_of(axis, *d).to_degrees().rem_euclid(180.0) / STEP).round() * STEP;
-                all.push(Snap::Angle { degrees, faces: faces_of(&same) });
+                let axis = (0..3)
+                    .min_by(|&j, &k| d[j].abs().total_cmp(&d[k].abs()))
+                    .unwrap_or(0);
+                let degrees =
+                    (angle_of(axis, *d).to_degrees().rem_euclid(180.0) / STEP).round() * STEP;
+                all.push(Snap::Angle {
+                    degrees,
+                    faces: faces_of(&same),
+                });
             }
             Dir::Turn { .. } | Dir::Free { .. } if same.len() > 1 => {
-                all.push(Snap::Parallel { faces: faces_of(&same) });
+                all.push(Snap::Parallel {
+                    faces: faces_of(&same),
+                });
             }
             _ => {}
         }
@@ -383,8 +436,12 @@ fn snapped(draft: &Draft<'_, '_>) -> Vec<Snap> {
         _ => None,
     };
     groups(&offset, |faces| Snap::Coplanar { faces });
-    groups(&|b| Some(cylinder(problem, b)?.1), |faces| Snap::Coaxial { faces });
-    groups(&|b| Some(cylinder(problem, b)?.2), |faces| Snap::EqualRadius { faces });
+    groups(&|b| Some(cylinder(problem, b)?.1), |faces| Snap::Coaxial {
+        faces,
+    });
+    groups(&|b| Some(cylinder(problem, b)?.2), |faces| {
+        Snap::EqualRadius { faces }
+    });
     let touching = problem.conditions.iter().flat_map(|c| match *c {
         Condition::Touch { round, .. } => vec![round],
         Condition::Nestle { a, b, .. } => vec![a, b],
@@ -394,7 +451,9 @@ fn snapped(draft: &Draft<'_, '_>) -> Vec<Snap> {
     touching.sort_unstable();
     touching.dedup();
     if !touching.is_empty() {
-        all.push(Snap::Tangent { faces: faces_of(&touching) });
+        all.push(Snap::Tangent {
+            faces: faces_of(&touching),
+        });
     }
     all
 }
