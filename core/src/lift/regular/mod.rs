@@ -8,6 +8,7 @@
 //! planes, cylinders and the camera's turn ([`problem`], [`fit`]), which moves the drawing as
 //! little as it can. The result is a drawing that is exact ([`Regular`]) and its lift.
 
+mod common;
 mod draft;
 mod fit;
 mod problem;

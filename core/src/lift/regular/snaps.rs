@@ -9,6 +9,7 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
+use super::common::{coplanar, snapped};
 use super::draft::Draft;
 use super::fit::{Fitted, judged};
 use super::problem::{Condition, Dir, Problem, Shape, angle_of, turn};
@@ -34,7 +35,7 @@ const ROUNDS: usize = 5;
 const WORSE: f64 = 1.5;
 
 /// Usual angles are multiples of this, degrees.
-const STEP: f64 = 15.0;
+pub(super) const STEP: f64 = 15.0;
 
 /// Decides and fits again.
 pub(super) fn settle(draft: &mut Draft<'_, '_>) -> Result<(Fitted, Vec<Snap>), LiftError> {
@@ -137,7 +138,7 @@ fn free(draft: &mut Draft<'_, '_>, body: usize, base: DVec3) {
 }
 
 /// Bodies with a direction, the largest first, with the distance of their corners from the middle.
-fn by_extent(draft: &Draft<'_, '_>) -> Vec<(usize, f64)> {
+pub(super) fn by_extent(draft: &Draft<'_, '_>) -> Vec<(usize, f64)> {
     let bodies = 0..draft.problem.bodies.len();
     let mut all: Vec<(usize, f64)> = bodies
         .filter(|&b| {
@@ -325,135 +326,9 @@ fn round(draft: &mut Draft<'_, '_>) -> bool {
 }
 
 /// Direction, place and radius of a cylinder.
-fn cylinder(problem: &Problem, body: usize) -> Option<(usize, usize, usize)> {
+pub(super) fn cylinder(problem: &Problem, body: usize) -> Option<(usize, usize, usize)> {
     match problem.bodies[body].shape {
         Shape::Cylinder { place, radius } => Some((problem.bodies[body].dir, place, radius)),
         _ => None,
     }
-}
-
-/// Planes of one direction at one height become one, unless an edge leads from one to the other:
-/// then the step between them is meant.
-fn coplanar(draft: &mut Draft<'_, '_>) -> bool {
-    let mut changed = false;
-    let order: Vec<usize> = by_extent(draft)
-        .into_iter()
-        .map(|o| o.0)
-        .filter(|&b| draft.is_plane(b))
-        .collect();
-    let corners: Vec<Vec<usize>> = order.iter().map(|&b| draft.corners(b)).collect();
-    let steps = |i: usize, j: usize| {
-        draft.sheet.drawing.edges.iter().any(|e| {
-            let [v, w] = e.v;
-            let from = |c: &[usize], v: usize| c.binary_search(&v).is_ok();
-            (from(&corners[i], v) && from(&corners[j], w) && !from(&corners[i], w))
-                || (from(&corners[i], w) && from(&corners[j], v) && !from(&corners[i], v))
-        })
-    };
-    let mut merged = Vec::new();
-    for i in 1..order.len() {
-        for j in 0..i {
-            let (b, other) = (
-                draft.problem.bodies[order[i]],
-                draft.problem.bodies[order[j]],
-            );
-            let (Shape::Plane { offset }, Shape::Plane { offset: twin }) = (b.shape, other.shape)
-            else {
-                continue;
-            };
-            let apart = (draft.problem.x[offset] - draft.problem.x[twin]).abs();
-            if b.dir == other.dir && offset != twin && apart < draft.noise && !steps(i, j) {
-                merged.push((order[i], twin));
-                break;
-            }
-        }
-    }
-    for (b, twin) in merged {
-        draft.problem.bodies[b].shape = Shape::Plane { offset: twin };
-        changed = true;
-    }
-    changed
-}
-
-/// What the draft has in common now.
-fn snapped(draft: &Draft<'_, '_>) -> Vec<Snap> {
-    let problem = &draft.problem;
-    let mut all = Vec::new();
-    let faces_of = |bodies: &[usize]| {
-        let mut faces: Vec<usize> = bodies.iter().flat_map(|&b| draft.faces(b)).collect();
-        faces.sort_unstable();
-        faces
-    };
-    let used: Vec<usize> = (0..problem.bodies.len())
-        .filter(|&b| problem.bodies[b].shape != Shape::Open && draft.faces(b).next().is_some())
-        .collect();
-    let with = |test: &dyn Fn(usize) -> bool| -> Vec<usize> {
-        used.iter().copied().filter(|&b| test(b)).collect()
-    };
-    let square = with(
-        &|b| matches!(problem.dirs[problem.bodies[b].dir], Dir::Fixed(d) if DVec3::AXES.contains(&d.abs())),
-    );
-    if !square.is_empty() {
-        all.push(Snap::Square {
-            faces: faces_of(&square),
-        });
-    }
-    for (i, dir) in problem.dirs.iter().enumerate() {
-        let same = with(&|b| problem.bodies[b].dir == i);
-        match dir {
-            Dir::Fixed(d) if !same.is_empty() && !DVec3::AXES.contains(&d.abs()) => {
-                let axis = (0..3)
-                    .min_by(|&j, &k| d[j].abs().total_cmp(&d[k].abs()))
-                    .unwrap_or(0);
-                let degrees =
-                    (angle_of(axis, *d).to_degrees().rem_euclid(180.0) / STEP).round() * STEP;
-                all.push(Snap::Angle {
-                    degrees,
-                    faces: faces_of(&same),
-                });
-            }
-            Dir::Turn { .. } | Dir::Free { .. } if same.len() > 1 => {
-                all.push(Snap::Parallel {
-                    faces: faces_of(&same),
-                });
-            }
-            _ => {}
-        }
-    }
-    let mut groups = |key: &dyn Fn(usize) -> Option<usize>, snap: fn(Vec<usize>) -> Snap| {
-        let mut keys: Vec<usize> = used.iter().filter_map(|&b| key(b)).collect();
-        keys.sort_unstable();
-        keys.dedup();
-        for k in keys {
-            let same = with(&|b| key(b) == Some(k));
-            if same.len() > 1 {
-                all.push(snap(faces_of(&same)));
-            }
-        }
-    };
-    let offset = |b: usize| match problem.bodies[b].shape {
-        Shape::Plane { offset } => Some(offset),
-        _ => None,
-    };
-    groups(&offset, |faces| Snap::Coplanar { faces });
-    groups(&|b| Some(cylinder(problem, b)?.1), |faces| Snap::Coaxial {
-        faces,
-    });
-    groups(&|b| Some(cylinder(problem, b)?.2), |faces| {
-        Snap::EqualRadius { faces }
-    });
-    let touching = problem.conditions.iter().flat_map(|c| match *c {
-        Condition::Touch { round, .. } => vec![round],
-        Condition::Nestle { a, b, .. } => vec![a, b],
-        _ => Vec::new(),
-    });
-    let mut touching: Vec<usize> = touching.collect();
-    touching.sort_unstable();
-    touching.dedup();
-    if !touching.is_empty() {
-        all.push(Snap::Tangent {
-            faces: faces_of(&touching),
-        });
-    }
-    all
 }
