@@ -173,6 +173,20 @@ impl Edge {
     }
 }
 
+/// The points without those that are no farther than `least` from the one before: they say nothing
+/// of where the curve goes. The ends stay.
+fn apart(mut points: Vec<DVec2>, least: f64) -> Vec<DVec2> {
+    let last = points[points.len() - 1];
+    points.dedup_by(|p, kept| p.distance(*kept) <= least);
+    if points.len() > 1 && points[points.len() - 1] != last {
+        points.pop();
+    }
+    if points[points.len() - 1] != last {
+        points.push(last);
+    }
+    points
+}
+
 impl Net<'_> {
     /// Takes an input edge in, unless it has no length.
     fn take(&mut self, source: usize, edge: Edge, exact: f64) {
@@ -185,8 +199,9 @@ impl Net<'_> {
             self.note(FindingKind::ZeroLength, message, vec![source], place);
             return;
         }
-        let curve = Curve2::recognise_within(&edge.points, exact);
-        self.pieces.push(Piece::new(edge.points, curve, source));
+        let points = apart(edge.points, exact);
+        let curve = Curve2::recognise_within(&points, exact);
+        self.pieces.push(Piece::new(points, curve, source));
     }
 
     /// The clean-up itself. Returns the distance within which the input turned out to be exact.
