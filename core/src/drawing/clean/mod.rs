@@ -22,6 +22,7 @@ mod split;
 use glam::DVec2;
 
 use super::format::{Raw, RawEdge};
+use super::recognise::spread;
 use super::{
     CleanDrawing, Curve2, Drawing, DrawingError, Edge, EllipseArc, FindingKind, Limits, Report,
     diagnose,
@@ -31,7 +32,8 @@ pub(super) use net::names;
 pub(super) use piece::Piece;
 pub(super) use split::{Touch, runs_along, touches};
 
-/// How clean-up works. Distances are relative to the drawing's size.
+/// How clean-up works. Distances are relative to the drawing's size, here the largest distance of a
+/// point from the mean of all, which turning the drawing does not change.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CleanOptions {
     /// Distance within which an end is taken for one with another end, or on an edge, where
@@ -91,7 +93,8 @@ pub(super) fn clean_raw(
         edges: raw.edges.into_iter().map(Edge::unplaced).collect(),
         truth: None,
     };
-    let size = input.check_input(limits)?;
+    input.check_input(limits)?;
+    let size = spread(input.edges.iter().flat_map(|e| e.points.iter().copied()));
     let reach = options.tolerance.max(options.rounding) * size;
     let exact = options.rounding * size;
     let mut net = Net {
