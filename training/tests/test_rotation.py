@@ -16,7 +16,6 @@ from faceformer_training.rotation.data import Shard, batches, collate  # noqa: E
 from faceformer_training.rotation.export import write  # noqa: E402
 from faceformer_training.rotation.fixture import random_model  # noqa: E402
 from faceformer_training.rotation.model import RotationModel, flip_logits  # noqa: E402
-from faceformer_training.rotation.split import part_of  # noqa: E402
 from faceformer_training.rotation.train import train  # noqa: E402
 
 ROOT = Path(__file__).parents[2]
@@ -94,17 +93,12 @@ def test_every_drawing_is_in_one_batch(shard):
         assert len(group) == 1 or len(group) * longest <= 256
 
 
-def test_views_of_a_solid_are_in_one_part():
-    assert part_of("mfcad/00012#o0") == part_of("mfcad/00012#p3")
-    parts = [part_of(f"mfcad/{k:05}#o0") for k in range(2000)]
-    assert 0.82 < parts.count("train") / 2000 < 0.88
-
-
 @pytest.fixture
 def config(shard_path, tmp_path) -> TrainConfig:
     return TrainConfig(
         train=[[str(shard_path)]],
         output=str(tmp_path / "run"),
+        validation=[str(shard_path)],
         preset="tiny",
         steps=6,
         warmup=2,

@@ -7,7 +7,7 @@ use glam::DVec2;
 use super::curve::{Curve2, EllipseArc};
 use super::ellipse;
 
-/// Largest distance of a point from its curve, relative to the polyline's own half diagonal.
+/// Largest distance of a point from its curve, relative to the polyline's own spread.
 const TOLERANCE: f64 = 1e-4;
 
 /// Longest step between points on an ellipse, radians. A circle drawn with nine points has steps of
@@ -29,7 +29,7 @@ impl Curve2 {
     ///   a segment.
     ///
     /// `noise` is the distance within which points are exact, in drawing units; 1e-4 of the
-    /// polyline's own half diagonal is always allowed.
+    /// polyline's own spread is always allowed.
     pub fn recognise_within(points: &[DVec2], noise: f64) -> Self {
         let [first, .., last] = points else {
             return Self::Polyline;
@@ -37,10 +37,7 @@ impl Curve2 {
         if points.len() == 2 {
             return Self::Line;
         }
-        let (min, max) = points
-            .iter()
-            .fold((*first, *first), |(a, b), p| (a.min(*p), b.max(*p)));
-        let size = (max - min).length() / 2.0;
+        let size = spread(points.iter().copied());
         let tolerance = noise.max(TOLERANCE * size);
         if is_segment(points, *first, *last, tolerance) {
             return Self::Line;
@@ -51,6 +48,15 @@ impl Curve2 {
             None => Self::Polyline,
         }
     }
+}
+
+/// Largest distance of a point from the mean of all. Unlike a bounding box, it does not change when
+/// the points are turned; 0 without points.
+pub(super) fn spread(points: impl Iterator<Item = DVec2> + Clone) -> f64 {
+    let count = points.clone().count().max(1);
+    // Each share is added by itself, so that huge coordinates do not overflow.
+    let mean: DVec2 = points.clone().map(|p| p / count as f64).sum();
+    points.map(|p| p.distance(mean)).fold(0.0, f64::max)
 }
 
 /// Whether the points lie on the segment and run along it without turning back.

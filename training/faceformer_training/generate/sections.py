@@ -290,5 +290,5 @@ def round_section(dice: Dice) -> Outline | Ellipse:
 def section(dice: Dice, curved: float = 0.35) -> Outline | Ellipse:
     """Any outline; ``curved`` is the chance of one made of arcs or splines."""
     if dice.chance(curved):
-        return round_section(dice) if dice.chance(0.7) else dice.weighted(FREE)(dice)
+        return round_section(dice) if dice.chance(0.5) else dice.weighted(FREE)(dice)
     return soften(dice, dice.weighted(POLYGONS)(dice))

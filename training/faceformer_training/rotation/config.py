@@ -47,6 +47,8 @@ class TrainConfig:
     # Epoch k takes list k modulo their number: variations of the same drawings.
     train: list[list[str]]
     output: str
+    # Shards of other solids, on which the curve is measured; none, no measurement.
+    validation: list[str] = dataclasses.field(default_factory=list)
     preset: str = "small"
     # Added to the preset, for instance {"width": 112}.
     model: dict[str, int] = dataclasses.field(default_factory=dict)

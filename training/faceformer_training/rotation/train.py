@@ -25,7 +25,6 @@ from tqdm import tqdm
 from .config import TrainConfig
 from .data import Batch, Place, Shard, batches, collate
 from .model import RotationModel, flip_logits, order_logits
-from .split import part_of
 
 
 def losses(model: torch.nn.Module, batch: Batch) -> dict[str, torch.Tensor]:
@@ -93,17 +92,18 @@ class Source:
             self.loaded = (variation, [Shard(Path(p)) for p in self.config.train[variation]])
         return self.loaded[1]
 
-    def places(self, epoch: int, part: str) -> list[Place]:
+    def places(self, shards: list[Shard]) -> list[Place]:
+        """The drawings that are not too large."""
         return [
             (shard, i)
-            for shard in self.shards(epoch)
-            for i, name in enumerate(shard.ids)
-            if part_of(name) == part and shard.sizes[i] <= self.config.max_edges
+            for shard in shards
+            for i in range(len(shard))
+            if shard.sizes[i] <= self.config.max_edges
         ]
 
     def validation(self) -> list[Batch]:
         """The same drawings whenever it is asked."""
-        places = self.places(0, "validation")
+        places = self.places([Shard(Path(p)) for p in self.config.validation])
         step = max(1, len(places) // max(1, self.config.validate_drawings))
         groups = batches(places[::step], self.config.batch_edges, 0)
         return [collate([shard.drawing(i) for shard, i in group]) for group in groups]
@@ -112,7 +112,7 @@ class Source:
         """Epoch, batch and its number of drawings, beginning after ``skip`` batches."""
         epoch = seen = 0
         while True:
-            places = self.places(epoch, "train")
+            places = self.places(self.shards(epoch))
             if not places:
                 raise ValueError("the shards hold no drawing to train on")
             seed = self.config.seed * 1_000_003 + epoch
@@ -198,7 +198,7 @@ def train(config: TrainConfig, resume: bool, stop: int | None = None) -> Path:
                 row = {"step": state["step"], "epoch": epoch, "drawings": state["drawings"]}
                 row["seconds"] = round(time.monotonic() - started, 1)
                 row["train_loss"] = round(loss.item(), 5)
-                measured = validate(average, held_out, fabric.device)
+                measured = validate(average, held_out, fabric.device) if held_out else {}
                 curve.add(row | {name: round(value, 5) for name, value in measured.items()})
             fabric.save(last, state | {"config": dataclasses.asdict(config.network())})
     bar.close()

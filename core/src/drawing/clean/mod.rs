@@ -22,6 +22,7 @@ mod split;
 use glam::DVec2;
 
 use super::format::{Raw, RawEdge};
+use super::recognise::spread;
 use super::{
     CleanDrawing, Curve2, Drawing, DrawingError, Edge, EllipseArc, FindingKind, Limits, Report,
     diagnose,
@@ -31,7 +32,8 @@ pub(super) use net::names;
 pub(super) use piece::Piece;
 pub(super) use split::{Touch, runs_along, touches};
 
-/// How clean-up works. Distances are relative to the drawing's size.
+/// How clean-up works. Distances are relative to the drawing's size, here the largest distance of a
+/// point from the mean of all, which turning the drawing does not change.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CleanOptions {
     /// Distance within which an end is taken for one with another end, or on an edge, where
@@ -91,7 +93,8 @@ pub(super) fn clean_raw(
         edges: raw.edges.into_iter().map(Edge::unplaced).collect(),
         truth: None,
     };
-    let size = input.check_input(limits)?;
+    input.check_input(limits)?;
+    let size = spread(input.edges.iter().flat_map(|e| e.points.iter().copied()));
     let reach = options.tolerance.max(options.rounding) * size;
     let exact = options.rounding * size;
     let mut net = Net {
@@ -173,6 +176,20 @@ impl Edge {
     }
 }
 
+/// The points without those that are no farther than `least` from the one before: they say nothing
+/// of where the curve goes. The ends stay.
+fn apart(mut points: Vec<DVec2>, least: f64) -> Vec<DVec2> {
+    let last = points[points.len() - 1];
+    points.dedup_by(|p, kept| p.distance(*kept) <= least);
+    if points.len() > 1 && points[points.len() - 1] != last {
+        points.pop();
+    }
+    if points[points.len() - 1] != last {
+        points.push(last);
+    }
+    points
+}
+
 impl Net<'_> {
     /// Takes an input edge in, unless it has no length.
     fn take(&mut self, source: usize, edge: Edge, exact: f64) {
@@ -185,8 +202,9 @@ impl Net<'_> {
             self.note(FindingKind::ZeroLength, message, vec![source], place);
             return;
         }
-        let curve = Curve2::recognise_within(&edge.points, exact);
-        self.pieces.push(Piece::new(edge.points, curve, source));
+        let points = apart(edge.points, exact);
+        let curve = Curve2::recognise_within(&points, exact);
+        self.pieces.push(Piece::new(points, curve, source));
     }
 
     /// The clean-up itself. Returns the distance within which the input turned out to be exact.

@@ -7,6 +7,9 @@ use glam::DVec2;
 use super::super::{Curve2, EllipseArc};
 use super::span::Span;
 
+/// Share of a polyline's step below which no span is left over at a cut.
+const SHORT: f64 = 0.05;
+
 /// A curve piece: part of an input edge, one of them, or several joined.
 #[derive(Debug, Clone)]
 pub(in super::super) struct Piece {
@@ -226,7 +229,9 @@ impl Piece {
             }
             Curve2::Polyline => {
                 let n = (self.points.len() - 1) as f64;
-                let inside = |i: &usize| (u0 * n < *i as f64) && ((*i as f64) < u1 * n);
+                // A point that all but coincides with the cut would leave a span without direction.
+                let inside =
+                    |i: &usize| u0 * n + SHORT < *i as f64 && (*i as f64) + SHORT < u1 * n;
                 let mut points = vec![self.point(u0)];
                 points.extend(
                     (0..self.points.len())

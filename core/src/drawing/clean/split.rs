@@ -1,6 +1,6 @@
 //! Pieces are cut where others end on them.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 use glam::DVec2;
 
@@ -177,7 +177,8 @@ fn all_touches(net: &Net<'_>, reach: f64, margin: f64) -> Result<Vec<Touch>, Dra
 
 /// Cuts the touched pieces; cuts nearer to each other than `apart` are one.
 fn split(net: &mut Net<'_>, cuts: &[Touch], apart: f64) {
-    let mut by_piece: HashMap<usize, Vec<(f64, usize, DVec2)>> = HashMap::new();
+    // In order, so that the same input gives the same numbers.
+    let mut by_piece: BTreeMap<usize, Vec<(f64, usize, DVec2)>> = BTreeMap::new();
     for t in cuts {
         let stop = (t.foot.u, t.vertex, net.vertices[t.vertex]);
         by_piece.entry(t.piece).or_default().push(stop);

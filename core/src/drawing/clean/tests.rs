@@ -316,3 +316,28 @@ proptest! {
         }
     }
 }
+
+/// Exporters repeat points; they say nothing of a curve's direction.
+#[test]
+fn repeated_points_change_nothing() {
+    // Half a wave: smooth, and no ellipse.
+    let wave: Vec<DVec2> = (0..=40)
+        .map(|i| f64::from(i) / 40.0)
+        .map(|x| DVec2::new(x, 0.3 * (3.0 * x).sin()))
+        .collect();
+    let back = line(&[(1.0, wave[40].y), (0.5, -1.0), (0.0, 0.0)]);
+    let once = vec![
+        wave[..=20].to_vec(),
+        wave[20..].to_vec(),
+        back[..2].to_vec(),
+        back[1..].to_vec(),
+    ];
+    let doubled: Vec<Vec<DVec2>> = once
+        .iter()
+        .map(|l| l.iter().flat_map(|p| [*p, *p]).collect())
+        .collect();
+    let (a, b) = (cleaned(&once), cleaned(&doubled));
+    assert_eq!(a.sources, b.sources);
+    assert_eq!(a.sources, [vec![0, 1], vec![2], vec![3]]);
+    assert_eq!(a.drawing.edges[0].points, b.drawing.edges[0].points);
+}

@@ -182,7 +182,7 @@ RECIPES = {
     odd_union: 4.0,
     cut_by_body: 1.5,
     bent_rod: 3.0,
-    lofted: 2.5,
+    lofted: 4.5,
     tower: 2.5,
     mirrored_pair: 1.5,
 }

@@ -385,6 +385,6 @@ RECIPES = {
     screw: 1.5,
     pulley: 1.2,
     ring_sector: 1.2,
-    spun: 1.6,
+    spun: 2.6,
     crossed_shaft: 0.8,
 }
