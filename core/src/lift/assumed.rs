@@ -58,36 +58,34 @@ fn pencils(sheet: &Sheet<'_>, _: &Unknowns, system: &mut System<Tag>) {
     slanted(sheet, false, system);
 }
 
-/// The wall of a slot: a planar face whose one axis it shares with a floor that is normal to a second
-/// one stands upright on the floor.
+/// The walls and the floor of a slot are at right angles: a planar face that shares its one axis with
+/// a face whose normal is known is normal to both.
 fn square(sheet: &Sheet<'_>, unknowns: &Unknowns, system: &mut System<Tag>) {
-    let count = sheet.directions.axes.len();
-    // Normals of planar faces that circles or two axes tell.
-    let level = |face: usize| {
+    // From floor to wall, and on to the next floor.
+    const PASSES: usize = 2;
+    let told = |face: usize| {
         let around = sheet.edges_of(face).iter().find_map(|&e| sheet.circles[e]);
-        sheet.normal_axis(face).or(around.map(|(k, _)| k))
+        let normal = sheet.normal_axis(face).or(around.map(|(k, _)| k));
+        normal
+            .filter(|_| sheet.is_planar(face))
+            .map(|k| sheet.axis(k))
     };
-    for face in 0..sheet.faces.len() {
-        let Some(p) = unknowns.plane(face) else {
-            continue;
-        };
-        if level(face).is_some() {
-            continue;
-        }
-        for &edge in sheet.edges_of(face) {
-            let Some(along) = sheet.edge_axis[edge] else {
+    let mut normals: Vec<Option<DVec3>> = (0..sheet.faces.len()).map(told).collect();
+    for _ in 0..PASSES {
+        let before = normals.clone();
+        for face in (0..before.len()).filter(|&f| before[f].is_none()) {
+            let Some(p) = unknowns.plane(face) else {
                 continue;
             };
-            let floor = sheet.neighbours(edge).iter().find(|f| **f != face);
-            let up = floor
-                .filter(|f| sheet.is_planar(**f))
-                .and_then(|f| level(*f));
-            let third = (0..count).find(|&k| k != along && Some(k) != up);
-            if let (Some(up), Some(k)) = (up, third)
-                && up != along
-            {
-                normal_to(sheet, face, p, sheet.axis(k), Tag::Prism { face }, system);
-                break;
+            let upright = sheet.edges_of(face).iter().find_map(|&edge| {
+                let along = sheet.axis(sheet.edge_axis[edge]?);
+                let floor = *sheet.neighbours(edge).iter().find(|f| **f != face)?;
+                let up = before[floor].filter(|n| n.dot(along).abs() < 1e-6)?;
+                along.cross(up).try_normalize()
+            });
+            if let Some(n) = upright {
+                normal_to(sheet, face, p, n, Tag::Prism { face }, system);
+                normals[face] = Some(n);
             }
         }
     }

@@ -15,6 +15,8 @@ mod profile;
 mod refine;
 mod ring;
 mod sphere;
+#[cfg(test)]
+mod tests;
 mod truth;
 mod wholes;
 
