@@ -58,34 +58,36 @@ fn pencils(sheet: &Sheet<'_>, _: &Unknowns, system: &mut System<Tag>) {
     slanted(sheet, false, system);
 }
 
-/// The walls and the floor of a slot are at right angles: a planar face that shares its one axis with
-/// a face whose normal is known is normal to both.
+/// The wall of a slot: a planar face whose one axis it shares with a floor that is normal to a second
+/// one stands upright on the floor.
 fn square(sheet: &Sheet<'_>, unknowns: &Unknowns, system: &mut System<Tag>) {
-    // From floor to wall, and on to the next floor.
-    const PASSES: usize = 2;
-    let told = |face: usize| {
+    let count = sheet.directions.axes.len();
+    // Normals of planar faces that circles or two axes tell.
+    let level = |face: usize| {
         let around = sheet.edges_of(face).iter().find_map(|&e| sheet.circles[e]);
-        let normal = sheet.normal_axis(face).or(around.map(|(k, _)| k));
-        normal
-            .filter(|_| sheet.is_planar(face))
-            .map(|k| sheet.axis(k))
+        sheet.normal_axis(face).or(around.map(|(k, _)| k))
     };
-    let mut normals: Vec<Option<DVec3>> = (0..sheet.faces.len()).map(told).collect();
-    for _ in 0..PASSES {
-        let before = normals.clone();
-        for face in (0..before.len()).filter(|&f| before[f].is_none()) {
-            let Some(p) = unknowns.plane(face) else {
+    for face in 0..sheet.faces.len() {
+        let Some(p) = unknowns.plane(face) else {
+            continue;
+        };
+        if level(face).is_some() {
+            continue;
+        }
+        for &edge in sheet.edges_of(face) {
+            let Some(along) = sheet.edge_axis[edge] else {
                 continue;
             };
-            let upright = sheet.edges_of(face).iter().find_map(|&edge| {
-                let along = sheet.axis(sheet.edge_axis[edge]?);
-                let floor = *sheet.neighbours(edge).iter().find(|f| **f != face)?;
-                let up = before[floor].filter(|n| n.dot(along).abs() < 1e-6)?;
-                along.cross(up).try_normalize()
-            });
-            if let Some(n) = upright {
-                normal_to(sheet, face, p, n, Tag::Prism { face }, system);
-                normals[face] = Some(n);
+            let floor = sheet.neighbours(edge).iter().find(|f| **f != face);
+            let up = floor
+                .filter(|f| sheet.is_planar(**f))
+                .and_then(|f| level(*f));
+            let third = (0..count).find(|&k| k != along && Some(k) != up);
+            if let (Some(up), Some(k)) = (up, third)
+                && up != along
+            {
+                normal_to(sheet, face, p, sheet.axis(k), Tag::Prism { face }, system);
+                break;
             }
         }
     }

@@ -82,7 +82,7 @@ pub fn plan(drawing: &Drawing, faces: &[Face], lift: &Lift, options: &PlanOption
     let measured = measured(drawing, faces, lift, &view, &lifted)?;
     let mut snapped = snap(
         &measured,
-        &smooth_pairs(drawing, faces, &uses, &measured),
+        &smooth_pairs(drawing, &uses, &measured),
         &axes,
         snap_length,
     );
@@ -257,24 +257,15 @@ fn measured(
     Ok(measured)
 }
 
-/// Pairs of faces that an outline may part: straight, unless the surface is a sphere or a torus, or
-/// stands in for one of another kind, whose outlines may be any.
-fn smooth_pairs(
-    drawing: &Drawing,
-    faces: &[Face],
-    uses: &[[Use; 2]],
-    measured: &[Measured],
-) -> Vec<[usize; 2]> {
-    let other = |face: usize| faces[face].kind == SurfaceKind::Other;
+/// Pairs of faces that an outline may part: straight, unless the surface is a sphere or a torus.
+fn smooth_pairs(drawing: &Drawing, uses: &[[Use; 2]], measured: &[Measured]) -> Vec<[usize; 2]> {
     let doubly_curved = |face: usize| {
         let support = &measured[face].support;
         matches!(support, Support::Sphere { .. } | Support::Torus { .. })
     };
     uses.iter()
         .zip(&drawing.edges)
-        .filter(|([a, b], edge)| {
-            (other(a.face) && other(b.face)) || edge.is_straight() != doubly_curved(a.face)
-        })
+        .filter(|([a, _], edge)| edge.is_straight() != doubly_curved(a.face))
         .map(|([a, b], _)| [a.face, b.face])
         .collect()
 }
