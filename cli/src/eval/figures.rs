@@ -6,10 +6,11 @@ use std::fmt::Write as _;
 use faceformer::identify::metrics::{Summary, median};
 use serde::Serialize;
 
+use super::compare::{Compared, KINDS, name};
 use super::measure::{Corrupted, Measured};
 
 /// What `eval --json` prints. Shares are 0 to 100, times are milliseconds.
-#[derive(Debug, Clone, Copy, Serialize)]
+#[derive(Debug, Clone, Serialize)]
 pub(crate) struct Figures {
     #[serde(flatten)]
     summary: Summary,
@@ -49,7 +50,7 @@ impl CorruptedFigures {
 }
 
 /// The further figures with `--solids`.
-#[derive(Debug, Clone, Copy, Serialize)]
+#[derive(Debug, Clone, Serialize)]
 struct SolidFigures {
     /// Share of drawings whose every depth is right.
     lifted: f64,
@@ -59,29 +60,95 @@ struct SolidFigures {
     lift_ms_median: f64,
     /// Median time of plan and solid, over the drawings that gave a valid one.
     solid_ms_median: f64,
+    #[serde(flatten)]
+    right: RightFigures,
+    /// The same for each kind of surface, over the drawings whose truth has it.
+    by_surface: BTreeMap<&'static str, KindFigures>,
 }
 
-impl Figures {
-    /// The figures of the measured drawings.
-    pub(crate) fn of(measured: &[Measured], solids: bool) -> Self {
-        let share = |right: fn(&Measured) -> bool| {
-            let count = measured.iter().filter(|m| right(m)).count();
-            100.0 * count as f64 / measured.len().max(1) as f64
+/// How right solids are. Drawings without a solid count as wrong; those whose true solid cannot be
+/// built to compare with are left out.
+#[derive(Debug, Clone, Copy, Serialize)]
+struct RightFigures {
+    /// Share of drawings whose solid is within 1e-3 Chamfer distance of the true one.
+    #[serde(rename = "chamfer_below_1e-3")]
+    near: f64,
+    /// Share of drawings whose solid has the true volume within 1%.
+    volume_within_1pct: f64,
+    /// Share of drawings whose solid has as many faces of each kind as the true one; of one kind,
+    /// as many of that.
+    faces_matched: f64,
+    /// Number of drawings that are left out.
+    no_truth: usize,
+}
+
+/// Figures of the drawings with a kind of surface.
+#[derive(Debug, Clone, Copy, Serialize)]
+struct KindFigures {
+    /// Number of these drawings.
+    drawings: usize,
+    /// Share of them that gave a valid closed solid.
+    valid: f64,
+    #[serde(flatten)]
+    right: RightFigures,
+}
+
+impl RightFigures {
+    fn of(measured: &[&Measured], matched: impl Fn(&Compared) -> bool) -> Self {
+        let no_truth = measured.iter().filter(|m| m.no_truth).count();
+        let share = |right: &dyn Fn(&Compared) -> bool| {
+            let all = measured.iter().filter_map(|m| m.compared.as_ref());
+            let count = all.filter(|c| right(c)).count();
+            100.0 * count as f64 / (measured.len() - no_truth).max(1) as f64
+        };
+        Self {
+            near: share(&|c| c.near),
+            volume_within_1pct: share(&|c| c.volume),
+            faces_matched: share(&matched),
+            no_truth,
+        }
+    }
+}
+
+impl SolidFigures {
+    fn of(measured: &[Measured]) -> Self {
+        let all: Vec<&Measured> = measured.iter().collect();
+        let share = |of: &[&Measured], right: fn(&Measured) -> bool| {
+            let count = of.iter().filter(|m| right(m)).count();
+            100.0 * count as f64 / of.len().max(1) as f64
         };
         let middle = |time: fn(&Measured) -> Option<f64>| {
             let mut times: Vec<f64> = measured.iter().filter_map(time).collect();
             times.sort_unstable_by(f64::total_cmp);
             median(&times)
         };
+        let kinds = KINDS.iter().enumerate().filter_map(|(k, kind)| {
+            let of: Vec<&Measured> = measured.iter().filter(|m| m.kinds[k]).collect();
+            let figures = KindFigures {
+                drawings: of.len(),
+                valid: share(&of, |m| m.valid),
+                right: RightFigures::of(&of, |c| c.faces.of(*kind) == c.true_faces.of(*kind)),
+            };
+            (!of.is_empty()).then_some((name(*kind), figures))
+        });
+        Self {
+            lifted: share(&all, |m| m.lifted),
+            valid: share(&all, |m| m.valid),
+            lift_ms_median: middle(|m| m.lift_ms),
+            solid_ms_median: middle(|m| m.solid_ms),
+            right: RightFigures::of(&all, |c| c.faces == c.true_faces),
+            by_surface: kinds.collect(),
+        }
+    }
+}
+
+impl Figures {
+    /// The figures of the measured drawings.
+    pub(crate) fn of(measured: &[Measured], solids: bool) -> Self {
         Self {
             summary: measured.iter().map(|m| &m.score).collect(),
             corrupted: CorruptedFigures::of(measured),
-            solids: solids.then(|| SolidFigures {
-                lifted: share(|m| m.lifted),
-                valid: share(|m| m.valid),
-                lift_ms_median: middle(|m| m.lift_ms),
-                solid_ms_median: middle(|m| m.solid_ms),
-            }),
+            solids: solids.then(|| SolidFigures::of(measured)),
         }
     }
 
@@ -111,13 +178,32 @@ impl Figures {
         );
         // Writing to a string cannot fail.
         if let Some(s) = &self.solids {
+            let r = &s.right;
             writeln!(
                 text,
                 "solids  lifted    {:6.2}   valid  {:6.2}\n\
+                 right   Chamfer   {:6.2}   volume {:6.2}   faces {:6.2}   no truth {}\n\
                  time    lift median {:.3} ms   solid median {:.3} ms",
-                s.lifted, s.valid, s.lift_ms_median, s.solid_ms_median
+                s.lifted,
+                s.valid,
+                r.near,
+                r.volume_within_1pct,
+                r.faces_matched,
+                r.no_truth,
+                s.lift_ms_median,
+                s.solid_ms_median
             )
             .ok();
+            for (kind, k) in &s.by_surface {
+                let r = &k.right;
+                writeln!(
+                    text,
+                    "  {kind:8} {:5} drawings   valid {:6.2}   Chamfer {:6.2}   volume {:6.2}   \
+                     faces {:6.2}   no truth {}",
+                    k.drawings, k.valid, r.near, r.volume_within_1pct, r.faces_matched, r.no_truth
+                )
+                .ok();
+            }
         }
         if let Some(c) = &self.corrupted {
             writeln!(
@@ -174,6 +260,7 @@ fn mask(message: &str) -> String {
 #[cfg(test)]
 mod tests {
     use faceformer::identify::metrics::DrawingScore;
+    use faceformer_occt::FaceCounts;
 
     use super::*;
     use crate::eval::measure::Failed;
@@ -192,6 +279,9 @@ mod tests {
             lift_ms: lifted.then_some(3.0),
             solid_ms: None,
             corrupted: None,
+            compared: None,
+            no_truth: false,
+            kinds: [true, false, false, true, false, false],
             failed: messages
                 .iter()
                 .map(|message| Failed {
@@ -222,6 +312,42 @@ mod tests {
         }
         let without = serde_json::to_value(Figures::of(&measured, false)).unwrap();
         assert!(without.get("lifted").is_none());
+    }
+
+    #[test]
+    fn solids_are_right_overall_and_by_kind() {
+        let right = |sphere| Compared {
+            near: true,
+            volume: false,
+            faces: FaceCounts {
+                plane: 4,
+                sphere,
+                ..FaceCounts::default()
+            },
+            true_faces: FaceCounts {
+                plane: 4,
+                sphere: 1,
+                ..FaceCounts::default()
+            },
+            chamfer: 1e-5,
+        };
+        let mut all = [(); 4].map(|()| one(true, &[]));
+        all[0].compared = Some(right(1));
+        all[1].compared = Some(right(2));
+        all[2].no_truth = true;
+        let value = serde_json::to_value(Figures::of(&all, true)).unwrap();
+        // Of three: the one without a truth is left out, the one without a solid is not.
+        let share = |value: &serde_json::Value, key: &str| value[key].as_f64().unwrap();
+        assert!((share(&value, "chamfer_below_1e-3") - 200.0 / 3.0).abs() < 1e-9);
+        assert!((share(&value, "faces_matched") - 100.0 / 3.0).abs() < 1e-9);
+        assert_eq!(share(&value, "volume_within_1pct"), 0.0);
+        assert_eq!(share(&value, "no_truth"), 1.0);
+        let kinds = &value["by_surface"];
+        assert!((share(&kinds["plane"], "faces_matched") - 200.0 / 3.0).abs() < 1e-9);
+        assert!((share(&kinds["sphere"], "faces_matched") - 100.0 / 3.0).abs() < 1e-9);
+        assert!(kinds.get("torus").is_none());
+        let table = Figures::of(&all, true).table(&all);
+        assert!(table.contains("sphere"), "{table}");
     }
 
     #[test]

@@ -11,6 +11,7 @@ use faceformer::plan::{PlanOptions, plan};
 use faceformer_occt::build;
 use serde::Serialize;
 
+use super::compare::{Compared, KINDS, compare};
 use super::random::Random;
 use super::spoil::corrupt;
 use crate::stages::FacesFrom;
@@ -25,7 +26,9 @@ pub(crate) struct Failed {
     /// The drawing.
     pub(crate) id: String,
     /// `identify`, `lift`, `depth` (lifted, but not as in the truth), `conflict` (a wrong face is not
-    /// named), `plan` or `build`.
+    /// named), `plan`, `build`, `chamfer` (the solid is not the true one), `faces`
+    /// (its faces are of other kinds) or `truth` (there is no
+    /// true solid to compare with).
     pub(crate) stage: &'static str,
     /// Why.
     pub(crate) message: String,
@@ -49,6 +52,12 @@ pub(crate) struct Measured {
     pub(crate) failed: Vec<Failed>,
     /// What lifting said of faces that were made wrong on purpose.
     pub(crate) corrupted: Option<Corrupted>,
+    /// How the solid compares with the true one; `None` if there is no solid, or no truth.
+    pub(crate) compared: Option<Compared>,
+    /// Whether there is a solid, and no true one to compare it with.
+    pub(crate) no_truth: bool,
+    /// Which kinds of surface the truth has, in the order of `compare::KINDS`.
+    pub(crate) kinds: [bool; 6],
 }
 
 /// What lifting said of faces that were made wrong on purpose.
@@ -95,6 +104,9 @@ pub(crate) fn measure(
         solid_ms: None,
         failed: Vec::new(),
         corrupted: None,
+        compared: None,
+        no_truth: false,
+        kinds: KINDS.map(|kind| truth.faces.iter().any(|f| f.kind == kind)),
     };
     if let (Ok(found), true) = (&found, solids) {
         measure_solid(drawing, truth, found, &mut measured, &mut fail);
@@ -182,9 +194,32 @@ fn measure_solid(
         Err(error) => return fail("plan", error.to_string()),
     };
     match build(&plan, Progress::none()) {
-        Ok(_) => {
+        Ok(solid) => {
             measured.valid = true;
             measured.solid_ms = Some(milliseconds(start));
+            match compare(drawing, truth, &found.faces, &lifted, (&plan, &solid)) {
+                Ok(compared) => {
+                    if !compared.near {
+                        let by = compared.chamfer;
+                        fail(
+                            "chamfer",
+                            format!("the solid is {by:.1e} from the true one"),
+                        );
+                    }
+                    let (found, wanted) = (compared.faces, compared.true_faces);
+                    if found != wanted {
+                        fail(
+                            "faces",
+                            format!("the solid has {found}; the truth {wanted}"),
+                        );
+                    }
+                    measured.compared = Some(compared);
+                }
+                Err(why) => {
+                    measured.no_truth = true;
+                    fail("truth", why);
+                }
+            }
         }
         Err(error) => fail("build", error.to_string()),
     }

@@ -1,6 +1,7 @@
 //! `faceformer eval`: how right and how fast the stages are on drawings with known truth.
 
 mod bar;
+mod compare;
 mod figures;
 mod measure;
 mod random;

@@ -15,7 +15,7 @@ use crate::drawing::{Curve2, SurfaceKind};
 pub(super) type Level = fn(&Sheet<'_>, &Unknowns, &mut System<Tag>);
 
 /// The sets, surest first.
-pub(super) const LEVELS: [Level; 7] = [
+pub(super) const LEVELS: [Level; 8] = [
     parallel,
     // The sides of a frustum would pass for ends of prisms.
     frustums,
@@ -24,6 +24,7 @@ pub(super) const LEVELS: [Level; 7] = [
     revolved::on_cylinder,
     generators,
     pencils,
+    square,
 ];
 
 /// Edges that are drawn parallel are parallel: their rises are as their drawn lengths.
@@ -55,6 +56,41 @@ fn parallel(sheet: &Sheet<'_>, _: &Unknowns, system: &mut System<Tag>) {
 /// other rules go first.
 fn pencils(sheet: &Sheet<'_>, _: &Unknowns, system: &mut System<Tag>) {
     slanted(sheet, false, system);
+}
+
+/// The wall of a slot: a planar face whose one axis it shares with a floor that is normal to a second
+/// one stands upright on the floor.
+fn square(sheet: &Sheet<'_>, unknowns: &Unknowns, system: &mut System<Tag>) {
+    let count = sheet.directions.axes.len();
+    // Normals of planar faces that circles or two axes tell.
+    let level = |face: usize| {
+        let around = sheet.edges_of(face).iter().find_map(|&e| sheet.circles[e]);
+        sheet.normal_axis(face).or(around.map(|(k, _)| k))
+    };
+    for face in 0..sheet.faces.len() {
+        let Some(p) = unknowns.plane(face) else {
+            continue;
+        };
+        if level(face).is_some() {
+            continue;
+        }
+        for &edge in sheet.edges_of(face) {
+            let Some(along) = sheet.edge_axis[edge] else {
+                continue;
+            };
+            let floor = sheet.neighbours(edge).iter().find(|f| **f != face);
+            let up = floor
+                .filter(|f| sheet.is_planar(**f))
+                .and_then(|f| level(*f));
+            let third = (0..count).find(|&k| k != along && Some(k) != up);
+            if let (Some(up), Some(k)) = (up, third)
+                && up != along
+            {
+                normal_to(sheet, face, p, sheet.axis(k), Tag::Prism { face }, system);
+                break;
+            }
+        }
+    }
 }
 
 fn slanted(sheet: &Sheet<'_>, usual: bool, system: &mut System<Tag>) {

@@ -10,7 +10,7 @@ use super::Surface;
 use super::heights::Heights;
 use super::ring_torus::touches;
 use super::sheet::Sheet;
-use super::surfaces::surfaces;
+use super::surfaces::surfaces_of;
 
 /// Shifts of a part that differ by less than this share of the drawing's size agree.
 const AGREE: f64 = 1e-4;
@@ -31,7 +31,19 @@ pub(super) struct Tie {
 
 /// Ties for those of the loose groups that known surfaces place.
 pub(super) fn ties(sheet: &Sheet<'_>, heights: &Heights, groups: &[Vec<usize>]) -> Vec<Tie> {
-    let surfaces = surfaces(sheet, heights);
+    // Only faces of loose vertices can tie them, and what is beside these faces may tell their
+    // surface.
+    let mut near = vec![false; sheet.faces.len()];
+    for (face, corners) in sheet.corners.iter().enumerate() {
+        if !heights.are_known(corners) {
+            near[face] = true;
+            let beside = sheet.edges_of(face).iter();
+            beside
+                .flat_map(|&e| sheet.neighbours(e))
+                .for_each(|&f| near[f] = true);
+        }
+    }
+    let surfaces = surfaces_of(sheet, heights, |face| near[face]);
     groups
         .iter()
         .filter_map(|group| tie(sheet, heights, &surfaces, group))

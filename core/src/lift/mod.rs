@@ -34,6 +34,7 @@ mod testing;
 mod tests;
 #[cfg(test)]
 mod tests_central;
+mod truth;
 
 pub use camera::Camera;
 pub(crate) use circle::{circle_fit, circle_through};
@@ -42,6 +43,7 @@ pub use metric::depth_error;
 pub use model::{Conflict, Lift, LiftMethod, LiftOptions, Surface};
 pub(crate) use pieces::{Pieces, Tilt};
 pub use regular::{Regular, Snap};
+pub use truth::true_lift;
 
 use crate::drawing::{Drawing, Projection};
 use crate::identify::Face;
@@ -102,7 +104,7 @@ fn lift_exact(
     for (i, reading) in readings.iter().enumerate() {
         progress.report(Stage::Lift, 0.2 + 0.8 * i as f64 / readings.len() as f64)?;
         let rival = explained(reading) == most;
-        if best.as_ref().is_some_and(|b| b.dropped == 0) && !rival {
+        if best.as_ref().is_some_and(|b| b.dropped() == 0) && !rival {
             continue;
         }
         let reading = if options.flip {
@@ -110,7 +112,7 @@ fn lift_exact(
         } else {
             reading.clone()
         };
-        match choice(drawing, faces, &reading, rival) {
+        match choice(drawing, faces, reading, rival) {
             Ok(choice) => {
                 if best.as_ref().is_none_or(|b| choice.is_better_than(b)) {
                     best = Some(choice);
@@ -121,73 +123,94 @@ fn lift_exact(
             }
         }
     }
+    let lift = match (best, refusal) {
+        (Some(choice), _) => choice.finish(drawing, faces),
+        (None, Some(error)) => return Err(error.into()),
+        (None, None) => return Err(LiftError::NoDirections("no reading".into()).into()),
+    };
     progress.report(Stage::Lift, 1.0)?;
-    match (best, refusal) {
-        (Some(choice), _) => Ok(choice.lift),
-        (None, Some(error)) => Err(error.into()),
-        (None, None) => Err(LiftError::NoDirections("no reading".into()).into()),
-    }
+    Ok(lift)
 }
 
-/// A lifted reading.
+/// A solved reading. Its surfaces, which cost most, are fitted once it is chosen.
 struct Choice {
-    lift: Lift,
-    /// Rows that contradict it.
-    dropped: usize,
+    reading: Directions,
+    solved: Solved,
+    /// The faces taken apart, if `solved` is theirs.
+    split: Option<split::Split>,
     /// Whether no other reading explains more edges.
     rival: bool,
     posture: Posture,
 }
 
 impl Choice {
+    /// Number of rows that contradict it.
+    fn dropped(&self) -> usize {
+        self.solved.dropped()
+    }
+
     /// Whether this reading is to be believed rather than one before it, which is likelier by
     /// itself: if it has far fewer contradictions, or explains as much and stands more naturally.
     fn is_better_than(&self, other: &Self) -> bool {
-        2 * self.dropped < other.dropped
+        2 * self.dropped() < other.dropped()
             || (self.rival
                 && other.rival
-                && self.dropped <= other.dropped
+                && self.dropped() <= other.dropped()
                 && self.posture > other.posture)
+    }
+
+    fn finish(&self, drawing: &Drawing, faces: &[Face]) -> Lift {
+        let sheet = Sheet::new(drawing, faces, &self.reading);
+        let Some(split) = &self.split else {
+            return finish(&sheet, &self.solved);
+        };
+        let parts = Sheet::new(drawing, &split.faces, &self.reading);
+        let mut lift = finish(&parts, &self.solved);
+        lift.surfaces = gathered(&parts, split, &lift.surfaces, faces.len());
+        lift.conflicts = conflicts::conflicts(&sheet, &lift.depths, &lift.surfaces);
+        lift.method = LiftMethod::L1;
+        lift
     }
 }
 
-/// Lifts one reading: as it is if its faces agree, else with the faces that do not taken apart.
+/// Solves one reading: as it is if its faces agree, else with the faces that do not taken apart.
 fn choice(
     drawing: &Drawing,
     faces: &[Face],
-    reading: &Directions,
+    reading: Directions,
     rival: bool,
 ) -> std::result::Result<Choice, LiftError> {
-    let sheet = Sheet::new(drawing, faces, reading);
+    let sheet = Sheet::new(drawing, faces, &reading);
     let whole = solve::solve(&sheet);
-    let made = |sheet: &Sheet<'_>, solved: &Solved, lift: Lift| Choice {
-        dropped: solved.dropped(),
-        rival,
-        posture: Posture::of(sheet, |v| solved.height(v)),
-        lift,
-    };
-    if let Ok(solved) = &whole
-        && solved.dropped() == 0
+    let posture = |sheet: &Sheet<'_>, solved: &Solved| Posture::of(sheet, |v| solved.height(v));
+    let agrees = whole.as_ref().is_ok_and(|w| w.dropped() == 0);
+    if !agrees
+        && faces.iter().any(|f| f.loops.len() > 1)
+        && let Some(split) = split::split(drawing, faces, &reading)
     {
-        return Ok(made(&sheet, solved, finish(&sheet, solved)));
-    }
-    if faces.iter().any(|f| f.loops.len() > 1)
-        && let Some(split) = split::split(drawing, faces, reading)
-    {
-        let parts = Sheet::new(drawing, &split.faces, reading);
+        let parts = Sheet::new(drawing, &split.faces, &reading);
         if let Ok(solved) = solve::solve(&parts)
             && whole
                 .as_ref()
                 .map_or(true, |w| solved.dropped() < w.dropped())
         {
-            let mut lift = finish(&parts, &solved);
-            lift.surfaces = gathered(&parts, &split, &lift.surfaces, faces.len());
-            lift.conflicts = conflicts::conflicts(&sheet, &lift.depths, &lift.surfaces);
-            lift.method = LiftMethod::L1;
-            return Ok(made(&parts, &solved, lift));
+            return Ok(Choice {
+                posture: posture(&parts, &solved),
+                reading,
+                solved,
+                split: Some(split),
+                rival,
+            });
         }
     }
-    whole.map(|solved| made(&sheet, &solved, finish(&sheet, &solved)))
+    let solved = whole?;
+    Ok(Choice {
+        posture: posture(&sheet, &solved),
+        reading,
+        solved,
+        split: None,
+        rival,
+    })
 }
 
 /// Surfaces of whole faces: each one that of its part with most vertices.

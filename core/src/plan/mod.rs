@@ -27,6 +27,7 @@ mod snap;
 mod stage;
 mod support;
 mod touch;
+mod touch_round;
 mod upright;
 mod uses;
 mod vertices;

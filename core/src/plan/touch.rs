@@ -7,6 +7,7 @@
 use glam::DVec3;
 
 use super::support::Support;
+use super::touch_round;
 
 /// Surfaces touch only if the vertex they share is this near to the line of contact, as a share of
 /// the smaller radius.
@@ -182,16 +183,18 @@ impl Unknowns {
     }
 }
 
-/// The plane through the line of contact and across both surfaces, if they touch near a point.
+/// A surface through the line of contact and across both surfaces, if they touch near a point.
 pub(super) fn contact(a: &Support, b: &Support, near: DVec3, tolerance: f64) -> Option<Support> {
     let (a, b) = match (a, b) {
         (Support::Cylinder { .. }, Support::Plane { .. }) => (b, a),
         _ => (a, b),
     };
-    let touch = touch(a, b, tolerance)?;
-    let found = Support::Plane {
-        origin: b.origin(),
-        normal: b.direction().cross(touch.across).try_normalize()?,
+    let found = match touch(a, b, tolerance) {
+        Some(touch) => Support::Plane {
+            origin: b.origin(),
+            normal: b.direction().cross(touch.across).try_normalize()?,
+        },
+        None => touch_round::contact(a, b, tolerance)?,
     };
     let close = found.distance(near).abs() <= NEAR * a.radius().min(b.radius());
     close.then_some(found)

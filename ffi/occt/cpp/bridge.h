@@ -21,6 +21,10 @@ void write_step(rust::Slice<const std::uint8_t> brep, rust::Str path);
 // Writes the solid in a BREP text as triangles, as a binary STL file.
 void write_stl(rust::Slice<const std::uint8_t> brep, rust::Str path);
 
+// Triangles of the solid in a BREP text, no further than `deflection` from its faces: nine numbers
+// each, counter-clockwise seen from outside.
+rust::Vec<double> triangles(rust::Slice<const std::uint8_t> brep, double deflection);
+
 // Version of OCCT, as in "7.6.3".
 rust::String version();
 

@@ -25,6 +25,11 @@ constexpr double kTurn = 2.0 * M_PI;
 // Steps of the coarsest and of the finest B-spline in the parameter plane.
 constexpr int kFewSteps = 32;
 constexpr int kManySteps = 1024;
+constexpr int kManyOnSpline = 256;
+
+// Curves on a B-spline surface, which itself is no closer to its edges, are this precise, in inner
+// units.
+constexpr double kSplinePrecision = 1e-4;
 
 // A point this close to the axis, relative to the radius, is an apex or a pole.
 constexpr double kOnAxis = 1e-6;
@@ -219,7 +224,10 @@ Handle(Geom2d_Curve) Chart::curve(const Segment &segment, const gp_Pnt2d &start,
       surface_->D1(wanted.X(), wanted.Y(), point, by_u, by_v);
       error = std::max(error, (by_u * off.X() + by_v * off.Y()).Magnitude());
     }
-    if (error <= precision || steps >= kManySteps || !is_periodic()) {
+    // Places on a B-spline surface are searched for, which takes its time.
+    const int most = is_periodic() ? kManySteps : kManyOnSpline;
+    const double enough = is_periodic() ? precision : std::max(precision, kSplinePrecision);
+    if (error <= enough || steps >= most) {
       return Handle(Geom2d_Curve)(spline);
     }
   }

@@ -1,9 +1,12 @@
 #include "fill.h"
 
 #include <algorithm>
+#include <functional>
+#include <vector>
 
 #include <GeomAdaptor_Curve.hxx>
 #include <GeomConvert.hxx>
+#include <GeomConvert_ApproxCurve.hxx>
 #include <GeomFill_BSplineCurves.hxx>
 #include <GeomPlate_BuildPlateSurface.hxx>
 #include <GeomPlate_CurveConstraint.hxx>
@@ -11,20 +14,37 @@
 #include <GeomPlate_Surface.hxx>
 #include <Geom_BSplineCurve.hxx>
 #include <Geom_TrimmedCurve.hxx>
+#include <Precision.hxx>
+#include <ShapeAnalysis_Surface.hxx>
 #include <Standard_Failure.hxx>
 
 namespace faceformer::occt {
 namespace {
 
-// The plate passes its edges at so many points of all together, at least and at most so many of
-// each; its approximation stays within these inner units of it.
+// A surface whose edges lie this close to it, in inner units, is good enough.
+constexpr double kClose = 1e-3;
+
+// Points of each edge at which its distance from a surface is measured.
+constexpr int kProbes = 16;
+
+// A circle becomes a curve without weights within this, in inner units.
+constexpr double kWeightless = 1e-5;
+constexpr int kWeightlessPieces = 64;
+constexpr int kWeightlessDegree = 8;
+
+// A plate passes its edges at so many points of all together, at least and at most so many of
+// each; its approximation by so many pieces stays within these inner units of it.
+struct Plating {
+  int points;
+  int few;
+  int many;
+  int iterations;
+  double tolerance;
+  int pieces;
+};
+constexpr Plating kCoarse{200, 8, 40, 2, 1e-4, 30};
+constexpr Plating kFine{480, 20, 80, 3, 1e-5, 120};
 constexpr int kPlateDegree = 3;
-constexpr int kPlatePoints = 200;
-constexpr int kFewPoints = 8;
-constexpr int kManyPoints = 40;
-constexpr int kPlateIterations = 2;
-constexpr double kPlateTolerance = 1e-4;
-constexpr int kApproximationPieces = 30;
 constexpr int kApproximationDegree = 8;
 
 Handle(Geom_TrimmedCurve) trimmed(std::int32_t coedge, const Topology &topology) {
@@ -37,24 +57,34 @@ Handle(Geom_TrimmedCurve) trimmed(std::int32_t coedge, const Topology &topology)
   return curve;
 }
 
-Handle(Geom_BSplineSurface) coons(const Loop &loop, const Topology &topology) {
+// The sides' own curves are rational where they are circles, and weights spoil the sum of Coons:
+// it then misses its sides unless opposite ones have equal weights.
+Handle(Geom_BSplineSurface) coons(const Loop &loop, const Topology &topology, bool weightless) {
   Handle(Geom_BSplineCurve) sides[4];
   for (int i = 0; i < 4; ++i) {
-    sides[i] = GeomConvert::CurveToBSplineCurve(trimmed(loop.coedges[i], topology));
+    const Handle(Geom_TrimmedCurve) side = trimmed(loop.coedges[i], topology);
+    sides[i] = GeomConvert::CurveToBSplineCurve(side);
+    if (weightless && sides[i]->IsRational()) {
+      const GeomConvert_ApproxCurve approximation(sides[i], kWeightless, GeomAbs_C1,
+                                                  kWeightlessPieces, kWeightlessDegree);
+      if (approximation.HasResult()) {
+        sides[i] = approximation.Curve();
+      }
+    }
   }
   const GeomFill_BSplineCurves filling(sides[0], sides[1], sides[2], sides[3],
                                        GeomFill_CoonsStyle);
   return filling.Surface();
 }
 
-Handle(Geom_BSplineSurface) plate(const Face &face, const Topology &topology) {
+Handle(Geom_BSplineSurface) plate(const Face &face, const Topology &topology,
+                                  const Plating &plating) {
   std::size_t edges = 0;
   for (const Loop &loop : face.loops) {
     edges += loop.coedges.size();
   }
-  const int points =
-      std::clamp(kPlatePoints / static_cast<int>(edges), kFewPoints, kManyPoints);
-  GeomPlate_BuildPlateSurface builder(kPlateDegree, points, kPlateIterations);
+  const int points = std::clamp(plating.points / static_cast<int>(edges), plating.few, plating.many);
+  GeomPlate_BuildPlateSurface builder(kPlateDegree, points, plating.iterations);
   for (const Loop &loop : face.loops) {
     for (const std::int32_t coedge : loop.coedges) {
       const Segment segment = segment_of(topology.edges[edge_index(coedge)]);
@@ -67,23 +97,68 @@ Handle(Geom_BSplineSurface) plate(const Face &face, const Topology &topology) {
   if (!builder.IsDone()) {
     throw std::domain_error("no surface can be laid through its edges");
   }
-  const GeomPlate_MakeApprox approximation(builder.Surface(), kPlateTolerance,
-                                           kApproximationPieces, kApproximationDegree,
-                                           kPlateTolerance, 0);
+  const GeomPlate_MakeApprox approximation(builder.Surface(), plating.tolerance, plating.pieces,
+                                           kApproximationDegree, plating.tolerance, 0);
   return approximation.Surface();
+}
+
+// Largest distance of a face's edges from a surface.
+double deviation(const Face &face, const Topology &topology,
+                 const Handle(Geom_BSplineSurface) & surface) {
+  ShapeAnalysis_Surface projector(surface);
+  double largest = 0.0;
+  for (const Loop &loop : face.loops) {
+    for (const std::int32_t coedge : loop.coedges) {
+      const Segment segment = segment_of(topology.edges[edge_index(coedge)]);
+      for (int i = 0; i <= kProbes; ++i) {
+        const double share = static_cast<double>(i) / kProbes;
+        const gp_Pnt point =
+            segment.curve->Value(segment.first + (segment.last - segment.first) * share);
+        projector.ValueOfUV(point, Precision::Confusion());
+        largest = std::max(largest, projector.Gap());
+      }
+    }
+  }
+  return largest;
 }
 
 } // namespace
 
 Handle(Geom_BSplineSurface) fill(const Face &face, const Topology &topology) {
+  using Attempt = std::function<Handle(Geom_BSplineSurface)()>;
+  std::vector<Attempt> attempts;
   if (face.loops.size() == 1 && face.loops.front().coedges.size() == 4) {
+    const Loop &loop = face.loops.front();
+    attempts.emplace_back([&] { return coons(loop, topology, false); });
+    attempts.emplace_back([&] { return coons(loop, topology, true); });
+  }
+  attempts.emplace_back([&] { return plate(face, topology, kCoarse); });
+  attempts.emplace_back([&] { return plate(face, topology, kFine); });
+  Handle(Geom_BSplineSurface) best;
+  double least = 0.0;
+  for (const Attempt &attempt : attempts) {
     try {
-      return coons(face.loops.front(), topology);
+      const Handle(Geom_BSplineSurface) surface = attempt();
+      if (surface.IsNull()) {
+        continue;
+      }
+      const double off = deviation(face, topology, surface);
+      if (best.IsNull() || off < least) {
+        best = surface;
+        least = off;
+      }
+      if (off <= kClose) {
+        break;
+      }
     } catch (const Standard_Failure &) {
-      // Sides that meet in a wide tolerance only; the plate does not mind.
+      // Sides that meet in a wide tolerance only, for one; another attempt may not mind.
+    } catch (const std::domain_error &) {
     }
   }
-  return plate(face, topology);
+  if (best.IsNull()) {
+    throw std::domain_error("no surface can be laid through its edges");
+  }
+  return best;
 }
 
 } // namespace faceformer::occt

@@ -9,13 +9,18 @@
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <Interface_Static.hxx>
+#include <Poly_Triangulation.hxx>
 #include <STEPControl_Controller.hxx>
 #include <STEPControl_Writer.hxx>
 #include <Standard_Version.hxx>
 #include <StlAPI_Writer.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopLoc_Location.hxx>
 #include <TopTools_FormatVersion.hxx>
+#include <TopoDS.hxx>
 
 #include "bridge.h"
 #include "faceformer-occt/src/bridge.rs.h"
@@ -100,6 +105,38 @@ void write_stl(rust::Slice<const std::uint8_t> brep, rust::Str path) {
   if (!writer.Write(shape, std::string(path).c_str())) {
     throw std::runtime_error("the file cannot be opened or is not complete");
   }
+}
+
+rust::Vec<double> triangles(rust::Slice<const std::uint8_t> brep, double deflection) {
+  const TopoDS_Shape shape = read_brep(brep);
+  const BRepMesh_IncrementalMesh mesh(shape, deflection, Standard_False, kAngle);
+  if (!mesh.IsDone()) {
+    throw std::runtime_error("the solid cannot be divided into triangles");
+  }
+  rust::Vec<double> numbers;
+  for (TopExp_Explorer it(shape, TopAbs_FACE); it.More(); it.Next()) {
+    const TopoDS_Face &face = TopoDS::Face(it.Current());
+    TopLoc_Location place;
+    const Handle(Poly_Triangulation) part = BRep_Tool::Triangulation(face, place);
+    if (part.IsNull()) {
+      throw std::runtime_error("a face cannot be divided into triangles");
+    }
+    const bool reversed = face.Orientation() == TopAbs_REVERSED;
+    for (int i = 1; i <= part->NbTriangles(); ++i) {
+      int corners[3];
+      part->Triangle(i).Get(corners[0], corners[1], corners[2]);
+      if (reversed) {
+        std::swap(corners[1], corners[2]);
+      }
+      for (const int corner : corners) {
+        const gp_Pnt p = part->Node(corner).Transformed(place);
+        numbers.push_back(p.X());
+        numbers.push_back(p.Y());
+        numbers.push_back(p.Z());
+      }
+    }
+  }
+  return numbers;
 }
 
 rust::String version() { return OCC_VERSION_COMPLETE; }

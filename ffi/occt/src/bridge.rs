@@ -150,6 +150,8 @@ pub(crate) mod ffi {
         fn build(model: &Model, watcher: &Watcher<'_>) -> Result<Outcome>;
         fn write_step(brep: &[u8], path: &str) -> Result<()>;
         fn write_stl(brep: &[u8], path: &str) -> Result<()>;
+        /// Corners of triangles within `deflection` of the solid's faces, nine numbers a triangle.
+        fn triangles(brep: &[u8], deflection: f64) -> Result<Vec<f64>>;
         fn version() -> Result<String>;
     }
 }

@@ -5,6 +5,7 @@ use std::str::FromStr;
 
 use faceformer::Progress;
 use faceformer::plan::Plan;
+use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::bridge::{Watcher, ffi};
@@ -59,6 +60,21 @@ impl Solid {
     /// None today; the signature leaves room for shapes that are kept in another form.
     pub fn brep(&self) -> Result<Vec<u8>, OcctError> {
         Ok(self.brep.clone())
+    }
+
+    /// Triangles of the solid's faces, counter-clockwise seen from outside, no further than
+    /// `deflection` from them; lengths in the plan's units.
+    ///
+    /// # Errors
+    /// [`OcctError::Kernel`] if a face cannot be divided.
+    pub fn triangles(&self, deflection: f64) -> Result<Vec<[DVec3; 3]>, OcctError> {
+        let numbers = ffi::triangles(&self.brep, deflection)
+            .map_err(|e| OcctError::Kernel(e.what().to_owned()))?;
+        let corner = |t: &[f64], i: usize| DVec3::from_slice(&t[3 * i..3 * i + 3]);
+        let triangles = numbers.chunks_exact(9);
+        Ok(triangles
+            .map(|t| [corner(t, 0), corner(t, 1), corner(t, 2)])
+            .collect())
     }
 
     /// Writes the solid to a file, which is replaced if it is there.
@@ -161,7 +177,6 @@ pub fn occt_version() -> Result<String, OcctError> {
 mod tests {
     use faceformer::drawing::CoEdge;
     use faceformer::plan::{Curve3, PlanEdge, PlanFace, Surface3};
-    use glam::DVec3;
 
     use super::*;
 
@@ -208,6 +223,18 @@ mod tests {
     fn tetrahedron_has_a_sixth_of_the_cube() {
         let solid = build(&tetrahedron(), Progress::none()).unwrap();
         assert!((solid.report().volume - 1.0 / 6.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn triangles_bound_the_volume() {
+        let solid = build(&tetrahedron(), Progress::none()).unwrap();
+        let triangles = solid.triangles(1e-3).unwrap();
+        assert_eq!(triangles.len(), 4);
+        let volume: f64 = triangles
+            .iter()
+            .map(|[a, b, c]| a.dot(b.cross(*c)) / 6.0)
+            .sum();
+        assert!((volume - 1.0 / 6.0).abs() < 1e-12);
     }
 
     /// A `Standard_Failure` is no `std::exception`: without our own trycatch this test would not

@@ -103,16 +103,16 @@ fn curves(draft: &Draft<'_, '_>, vertices: &[DVec2]) -> Vec<Vec<DVec2>> {
             let first = if draft.is_plane(a) { a } else { b };
             let pair = [a, b].map(|b| draft.problem.surface(b, &draft.problem.x));
             let mut near = start;
-            for i in 1..last {
+            for (i, point) in points.iter_mut().enumerate().take(last).skip(1) {
                 let rough = if edge.v[0] == edge.v[1] {
                     near
                 } else {
                     start.lerp(end, along(i)).lerp(near, 0.5)
                 };
-                let place = both(draft.onto(first, points[i] / draft.size, rough), &pair);
+                let place = both(draft.onto(first, *point / draft.size, rough), &pair);
                 near = place;
                 let drawn = draft.problem.camera.project(draft.problem.rotation * place);
-                points[i] = drawn * draft.size;
+                *point = drawn * draft.size;
             }
             points
         })

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::evidence::Evidence;
-use super::refine::refined;
+use super::refine::{Freedom, refined};
 use crate::lift::Surface;
 use crate::lift::ring_torus::touching_gap;
 
@@ -12,9 +12,12 @@ use crate::lift::ring_torus::touching_gap;
 const KINK: f64 = 1e-6;
 
 /// A stand-in passes through known points within this share of the drawing's size.
-const STAND_IN: f64 = 2e-5;
+const STAND_IN: f64 = 8e-5;
 
-/// Candidates better than this many times the best are refined.
+/// A candidate this close, relative to the drawing's size, is as good as the drawing.
+const EXACT: f64 = 2e-6;
+
+/// So many of the best candidates are refined.
 const RIVALS: usize = 4;
 
 /// The candidate that agrees best, if it does within `tolerance`, a length.
@@ -32,21 +35,36 @@ pub(super) fn best(
     judged.truncate(RIVALS);
     judged
         .into_iter()
-        .map(|(off, surface)| {
-            let better = refined(evidence, surface);
-            let new = misfit(evidence, &better);
-            if new < off {
-                (new, better)
-            } else {
-                (off, surface)
-            }
-        })
-        .filter(|(off, _)| *off <= tolerance)
+        .filter_map(|(off, surface)| settled(evidence, surface, off, tolerance))
         .min_by(|a, b| {
             let cost = |(off, surface): &(f64, Surface)| off + kinks(evidence, surface);
             cost(a).total_cmp(&cost(b))
         })
         .map(|(_, surface)| surface)
+}
+
+/// A candidate with its misfit, refined no further than it takes to agree within `tolerance`.
+fn settled(
+    evidence: &Evidence,
+    surface: Surface,
+    off: f64,
+    tolerance: f64,
+) -> Option<(f64, Surface)> {
+    let mut best = (off, surface);
+    if off <= EXACT * evidence.size {
+        return Some(best);
+    }
+    for freedom in [Freedom::AlongAxis, Freedom::Shifts, Freedom::All] {
+        let better = refined(evidence, surface, freedom);
+        let new = misfit(evidence, &better);
+        if new < best.0 {
+            best = (new, better);
+        }
+        if best.0 <= tolerance {
+            return Some(best);
+        }
+    }
+    None
 }
 
 /// A surface between whole circles only that does not agree with the outlines, if none does: it

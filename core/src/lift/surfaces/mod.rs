@@ -15,6 +15,9 @@ mod profile;
 mod refine;
 mod ring;
 mod sphere;
+#[cfg(test)]
+mod tests;
+mod truth;
 mod wholes;
 
 use super::Surface;
@@ -23,6 +26,7 @@ use super::sheet::Sheet;
 use crate::drawing::SurfaceKind;
 use evidence::Evidence;
 pub(super) use flat::best_plane;
+pub(super) use truth::true_surfaces;
 pub(super) use wholes::touching;
 
 /// Rounds in which surfaces help their neighbours; the first ones ask for a better fit.
@@ -34,6 +38,16 @@ const ERRORS: f64 = 20.0;
 /// The surface of every face, as far as known depths tell; in a central projection of planes and
 /// cylinders only, as the others are found from lines of sight that are parallel.
 pub(super) fn surfaces(sheet: &Sheet<'_>, heights: &Heights) -> Vec<Surface> {
+    surfaces_of(sheet, heights, |_| true)
+}
+
+/// The same of planes, cylinders and the wholes of which some face is asked for; the others stay
+/// unknown.
+pub(super) fn surfaces_of(
+    sheet: &Sheet<'_>,
+    heights: &Heights,
+    asked: impl Fn(usize) -> bool,
+) -> Vec<Surface> {
     let mut known: Vec<Surface> = (0..sheet.faces.len())
         .map(|face| {
             let found = match sheet.faces[face].kind {
@@ -48,7 +62,8 @@ pub(super) fn surfaces(sheet: &Sheet<'_>, heights: &Heights) -> Vec<Surface> {
     if !sheet.camera().is_parallel() {
         return known;
     }
-    let wholes = wholes::surfaces(sheet);
+    let mut wholes = wholes::surfaces(sheet);
+    wholes.retain(|whole| whole.iter().any(|&f| asked(f)));
     for tolerance in ROUNDS {
         for whole in &wholes {
             if whole.iter().any(|&f| known[f] == Surface::Unknown) {

@@ -9,18 +9,48 @@ use crate::lift::Surface;
 /// Steps of refinement.
 const STEPS: usize = 6;
 
-/// Parameters of a surface: shifts and turns from where it is, then its lengths.
-fn count(surface: &Surface) -> usize {
-    match surface {
-        Surface::Sphere { .. } => 4,
-        Surface::Cone { .. } => 6,
-        Surface::Torus { .. } => 7,
-        _ => 0,
+/// What may change of a surface. A boundary often leaves its axis open within its own errors, and
+/// what others say of the axis is better then.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Freedom {
+    /// Lengths and the place along the axis.
+    AlongAxis,
+    /// All but the direction of the axis.
+    Shifts,
+    All,
+}
+
+/// Number of parameters: three shifts, two lengths, two turns of the axis.
+const PARAMETERS: usize = 7;
+
+/// Changes of a surface's parameters that it is free to make.
+fn ways(surface: &Surface, freedom: Freedom) -> Vec<[f64; PARAMETERS]> {
+    let unit = |k: usize| {
+        let mut way = [0.0; PARAMETERS];
+        way[k] = 1.0;
+        way
+    };
+    let lengths: &[usize] = match surface {
+        Surface::Cylinder { .. } | Surface::Cone { .. } | Surface::Sphere { .. } => &[3],
+        Surface::Torus { .. } => &[3, 4],
+        Surface::Plane { .. } | Surface::Unknown => return Vec::new(),
+    };
+    let turning = !matches!(surface, Surface::Sphere { .. });
+    let mut ways: Vec<_> = lengths.iter().map(|&k| unit(k)).collect();
+    if freedom == Freedom::AlongAxis && turning {
+        let axis = surface.direction();
+        ways.push([axis.x, axis.y, axis.z, 0.0, 0.0, 0.0, 0.0]);
+    } else {
+        ways.extend([0, 1, 2].map(unit));
     }
+    if freedom == Freedom::All && turning {
+        ways.extend([5, 6].map(unit));
+    }
+    ways
 }
 
 /// The surface with its parameters changed, lengths in units of `size`.
-fn changed(surface: &Surface, x: &[f64], size: f64) -> Surface {
+fn changed(surface: &Surface, x: &[f64; PARAMETERS], size: f64) -> Surface {
     let shift = DVec3::new(x[0], x[1], x[2]) * size;
     let turned = |axis: DVec3, a: f64, b: f64| {
         let (u, v) = axis.any_orthonormal_pair();
@@ -31,9 +61,18 @@ fn changed(surface: &Surface, x: &[f64], size: f64) -> Surface {
             center: center + shift,
             radius: radius + x[3] * size,
         },
+        Surface::Cylinder {
+            origin,
+            axis,
+            radius,
+        } => Surface::Cylinder {
+            origin: origin + shift,
+            axis: turned(axis, x[5], x[6]),
+            radius: radius + x[3] * size,
+        },
         Surface::Cone { apex, axis, angle } => Surface::Cone {
             apex: apex + shift,
-            axis: turned(axis, x[4], x[5]),
+            axis: turned(axis, x[5], x[6]),
             angle: angle + x[3],
         },
         Surface::Torus {
@@ -53,9 +92,10 @@ fn changed(surface: &Surface, x: &[f64], size: f64) -> Surface {
 
 /// The surface with the least squares of its residuals near the given one (Levenberg 1944, with
 /// numerical slopes).
-pub(super) fn refined(evidence: &Evidence, start: Surface) -> Surface {
+pub(super) fn refined(evidence: &Evidence, start: Surface, freedom: Freedom) -> Surface {
     const SLOPE: f64 = 1e-7;
-    let n = count(&start);
+    let ways = ways(&start, freedom);
+    let n = ways.len();
     if n == 0 {
         return start;
     }
@@ -67,9 +107,8 @@ pub(super) fn refined(evidence: &Evidence, start: Surface) -> Surface {
             return start;
         }
         let mut columns = Vec::with_capacity(n);
-        for k in 0..n {
-            let mut x = vec![0.0; n.max(3)];
-            x[k] = SLOPE;
+        for way in &ways {
+            let x = way.map(|w| w * SLOPE);
             residuals(evidence, &changed(&surface, &x, evidence.size), &mut then);
             columns.push(
                 now.iter()
@@ -95,7 +134,11 @@ pub(super) fn refined(evidence: &Evidence, start: Surface) -> Surface {
         if !largest.is_finite() || largest > 0.1 {
             return surface;
         }
-        surface = changed(&surface, &x, evidence.size);
+        let mut step = [0.0; PARAMETERS];
+        for (way, share) in ways.iter().zip(&x) {
+            step.iter_mut().zip(way).for_each(|(s, w)| *s += w * share);
+        }
+        surface = changed(&surface, &step, evidence.size);
         if largest < 1e-12 {
             break;
         }

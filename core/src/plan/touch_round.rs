@@ -1,0 +1,242 @@
+//! Round surfaces that touch: fillets beside what they round, and bends of pipes.
+//!
+//! Around a common axis surfaces are lines and circles in the half plane of distance from the axis
+//! and height along it, and touch where these do.
+
+use glam::{DVec2, DVec3};
+
+use super::support::Support;
+
+/// Sine of the angle within which directions are parallel, or at right angles.
+const ANGLE: f64 = 1e-7;
+
+/// What a surface is in the half plane beside its axis: x the distance from it, y the height.
+#[derive(Debug, Clone, Copy)]
+enum Profile {
+    /// Through a point, with a unit normal.
+    Line(DVec2, DVec2),
+    Circle(DVec2, f64),
+}
+
+/// A surface that crosses both of two touching surfaces where they touch: a vertex there is held on
+/// it. `None` if they do not touch within `tolerance`.
+pub(super) fn contact(a: &Support, b: &Support, tolerance: f64) -> Option<Support> {
+    bend(a, b, tolerance)
+        .or_else(|| bend(b, a, tolerance))
+        .or_else(|| coaxial(a, b, tolerance))
+}
+
+/// A pipe goes on straight after its bend: they touch in the circle across.
+fn bend(pipe: &Support, torus: &Support, tolerance: f64) -> Option<Support> {
+    let (
+        &Support::Cylinder {
+            origin,
+            axis,
+            radius,
+        },
+        &Support::Torus {
+            center,
+            axis: around,
+            major,
+            minor,
+        },
+    ) = (pipe, torus)
+    else {
+        return None;
+    };
+    let aside = (origin - center).reject_from_normalized(axis);
+    let off = [
+        radius - minor,
+        aside.dot(around),
+        aside.reject_from_normalized(around).length() - major,
+    ];
+    let fits = axis.dot(around).abs() < ANGLE && off.iter().all(|d| d.abs() <= tolerance);
+    fits.then_some(Support::Plane {
+        origin: center,
+        normal: axis,
+    })
+}
+
+fn coaxial(a: &Support, b: &Support, tolerance: f64) -> Option<Support> {
+    let round = |s: &Support| matches!(s, Support::Torus { .. } | Support::Sphere { .. });
+    if !round(a) && !round(b) {
+        return None;
+    }
+    let (origin, axis) = a.axis().or_else(|| b.axis()).or_else(|| {
+        // A plane is around any axis across it, a sphere around any through its centre.
+        let (plane, ball) = if round(a) { (b, a) } else { (a, b) };
+        let normal = plane.direction().try_normalize()?;
+        Some((ball.origin(), normal))
+    })?;
+    let profiles = |s| profile(s, origin, axis, tolerance);
+    let (at, across) = match (profiles(a)?, profiles(b)?) {
+        (Profile::Line(..), Profile::Line(..)) => return None,
+        (Profile::Line(p, normal), Profile::Circle(center, radius))
+        | (Profile::Circle(center, radius), Profile::Line(p, normal)) => {
+            let off = normal.dot(center - p);
+            if (off.abs() - radius).abs() > tolerance {
+                return None;
+            }
+            (center - normal * off, normal)
+        }
+        (Profile::Circle(c, r), Profile::Circle(d, s)) => {
+            let apart = c.distance(d);
+            let across = (d - c).try_normalize()?;
+            if (apart - r - s).abs() <= tolerance {
+                (c + across * r, across)
+            } else if (apart - (r - s).abs()).abs() <= tolerance {
+                (c + across * r * (r - s).signum(), across)
+            } else {
+                return None;
+            }
+        }
+    };
+    // On the axis they touch in a point, which their own equations hold.
+    if at.x <= tolerance {
+        return None;
+    }
+    Some(if across.x.abs() > across.y.abs() {
+        Support::Plane {
+            origin: origin + axis * at.y,
+            normal: axis,
+        }
+    } else {
+        Support::Cylinder {
+            origin,
+            axis,
+            radius: at.x,
+        }
+    })
+}
+
+/// The profile of a surface around an axis; `None` if it is not around it.
+fn profile(support: &Support, origin: DVec3, axis: DVec3, tolerance: f64) -> Option<Profile> {
+    let d = support.origin() - origin;
+    let height = d.dot(axis);
+    let centred = d.reject_from_normalized(axis).length() <= tolerance;
+    let parallel = support.direction().cross(axis).length() < ANGLE;
+    let up = support.direction().dot(axis).signum();
+    match *support {
+        Support::Plane { .. } => {
+            parallel.then_some(Profile::Line(DVec2::new(0.0, height), DVec2::Y))
+        }
+        _ if !centred => None,
+        Support::Sphere { radius, .. } => Some(Profile::Circle(DVec2::new(0.0, height), radius)),
+        _ if !parallel => None,
+        Support::Cylinder { radius, .. } => Some(Profile::Line(DVec2::new(radius, 0.0), DVec2::X)),
+        Support::Cone { angle, .. } => {
+            let normal = DVec2::new(angle.cos(), -up * angle.sin());
+            Some(Profile::Line(DVec2::new(0.0, height), normal))
+        }
+        Support::Torus { major, minor, .. } => {
+            Some(Profile::Circle(DVec2::new(major, height), minor))
+        }
+        Support::Unknown => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    const AT: DVec3 = DVec3::new(0.3, -0.2, 0.1);
+
+    fn axis() -> DVec3 {
+        DVec3::new(0.2, 0.9, -0.4).normalize()
+    }
+
+    fn torus(height: f64, major: f64, minor: f64) -> Support {
+        Support::Torus {
+            center: AT + axis() * height,
+            axis: axis(),
+            major,
+            minor,
+        }
+    }
+
+    /// Points where both surfaces and the one across them are met.
+    fn meets(a: &Support, b: &Support, near: DVec3) {
+        let across = contact(a, b, 1e-9).expect("they touch");
+        let p = crate::plan::support::meet(near, &[*a, *b, across]);
+        for s in [a, b, &across] {
+            assert!(s.distance(p).abs() < 1e-9, "{s:?} {}", s.distance(p));
+        }
+        let (g, h) = (a.gradient(p), b.gradient(p));
+        assert!(g.cross(h).length() < 1e-6, "they do not touch there");
+        assert!(across.gradient(p).cross(g).length() > 0.5);
+    }
+
+    proptest! {
+        #[test]
+        fn fillets_touch_what_they_round(
+            major in 0.3..1.0f64,
+            minor in 0.02..0.2f64,
+            turn in -3.0..3.0f64,
+        ) {
+            let (u, v) = axis().any_orthonormal_pair();
+            let out = u * turn.cos() + v * turn.sin();
+            let tube = torus(0.0, major, minor);
+            let plane = Support::Plane { origin: AT + axis() * minor, normal: -axis() };
+            meets(&plane, &tube, AT + out * (major + 1e-3) + axis() * minor);
+            for side in [-1.0, 1.0] {
+                let radius = major + side * minor;
+                let wall = Support::Cylinder { origin: AT - axis() * 2.0, axis: -axis(), radius };
+                meets(&tube, &wall, AT + out * radius + axis() * 1e-3);
+                // Tubes side by side.
+                meets(&tube, &torus(0.0, major + 2.0 * side * minor, minor), AT + out * radius);
+            }
+            for angle in [0.3f64, 0.8, 1.2] {
+                // Apex where the line at the angle touches the tube's circle.
+                let height = -(major + minor / angle.cos()) / angle.tan();
+                let cone = Support::Cone { apex: AT + axis() * height, axis: axis(), angle };
+                let line = DVec2::new(angle.cos(), -angle.sin());
+                let off = line.dot(DVec2::new(major, 0.0) - DVec2::new(0.0, height));
+                prop_assume!((off.abs() - minor).abs() < 1e-9);
+                let touch = DVec2::new(major, 0.0) - line * off;
+                meets(&tube, &cone, AT + out * touch.x + axis() * touch.y);
+            }
+        }
+    }
+
+    #[test]
+    fn a_bend_touches_its_pipe() {
+        let (u, v) = axis().any_orthonormal_pair();
+        let tube = torus(0.0, 0.7, 0.1);
+        let pipe = Support::Cylinder {
+            origin: AT + u * 0.7 + v * 3.0,
+            axis: v,
+            radius: 0.1,
+        };
+        meets(&pipe, &tube, AT + u * 0.8 + v * 1e-3);
+        meets(&tube, &pipe, AT + u * 0.7 + axis() * 0.1);
+        let thinner = Support::Cylinder {
+            origin: AT + u * 0.7,
+            axis: v,
+            radius: 0.09,
+        };
+        assert_eq!(contact(&thinner, &tube, 1e-9), None);
+    }
+
+    #[test]
+    fn a_dome_touches_its_wall() {
+        let ball = Support::Sphere {
+            center: AT,
+            radius: 0.4,
+        };
+        let wall = Support::Cylinder {
+            origin: AT + axis(),
+            axis: axis(),
+            radius: 0.4,
+        };
+        meets(&wall, &ball, AT + axis().any_orthonormal_vector() * 0.4);
+        // In one point only.
+        let plane = Support::Plane {
+            origin: AT + axis() * 0.4,
+            normal: axis(),
+        };
+        assert_eq!(contact(&plane, &ball, 1e-9), None);
+        assert_eq!(contact(&plane, &wall, 1e-9), None);
+    }
+}
