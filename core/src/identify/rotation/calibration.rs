@@ -1,0 +1,40 @@
+//! From log-odds to probabilities that hold.
+
+/// A line from a margin to the log-odds of being right.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Line {
+    /// Log-odds for a unit of margin: the inverse of a temperature.
+    slope: f64,
+    /// Log-odds at no margin.
+    offset: f64,
+}
+
+/// For loops by the least margin of their choices.
+pub(super) const LOOPS: Line = Line {
+    slope: 1.0,
+    offset: 0.0,
+};
+
+/// For orders at vertices by their margin.
+pub(super) const VERTICES: Line = Line {
+    slope: 1.0,
+    offset: 0.0,
+};
+
+/// For faces by the log-odds that the search gives their grouping.
+const GROUPS: Line = Line {
+    slope: 1.0,
+    offset: 0.0,
+};
+
+/// Probability of being right at a margin, log-odds; an endless margin, where there is no choice,
+/// is certain.
+pub(super) fn confidence(margin: f64, line: Line) -> f64 {
+    1.0 / (1.0 + (-(line.slope * margin + line.offset)).exp())
+}
+
+/// Probability that a face's grouping is right, from the share of the search's likelihood.
+pub(super) fn grouping(share: f64) -> f64 {
+    let share = share.clamp(1e-9, 1.0 - 1e-9);
+    confidence((share / (1.0 - share)).ln(), GROUPS)
+}
