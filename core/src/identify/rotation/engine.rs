@@ -1,5 +1,6 @@
 //! The engine: score, decode, read off loops.
 
+use super::frame::Frame;
 use super::reading::{Doubts, Reader};
 use super::variants::variants;
 use super::{Field, HandScorer, TripleScorer, Triples, model};
@@ -71,16 +72,20 @@ impl Engine for RotationEngine {
         progress.report(Stage::Identify, 0.6)?;
         let doubts = Doubts::new(&field, &system);
         let readings = variants(&field, system, &doubts);
+        let frame = (readings.len() > 1).then(|| Frame::new(drawing));
         let reader = Reader {
             drawing,
             field: &field,
             kinds: scores.kinds.as_deref(),
-            rivals: readings.len() > 1,
+            frame: frame.as_ref(),
         };
         let mut sure = Vec::with_capacity(readings.len());
         let mut candidates = Vec::new();
         for (k, reading) in readings.iter().enumerate() {
-            progress.report(Stage::Identify, 0.6 + 0.4 * k as f64 / readings.len() as f64)?;
+            progress.report(
+                Stage::Identify,
+                0.6 + 0.4 * k as f64 / readings.len() as f64,
+            )?;
             let doubts = Doubts::new(&field, &reading.system);
             let own = reader.candidates(reading, &doubts);
             candidates.extend(own.into_iter().map(|c| (k, c)));

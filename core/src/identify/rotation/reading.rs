@@ -2,31 +2,24 @@
 
 use super::calibration::{self, LOOPS, VERTICES};
 use super::cuts::Cuts;
+use super::frame::Frame;
 use super::group::{Grouping, group};
 use super::variants::{Variant, plausibility};
 use super::{Field, LoopKinds, RotationSystem};
-use crate::Progress;
 use crate::drawing::{CoEdge, Drawing, Graph, SurfaceKind};
 use crate::identify::kinds::kinds_of;
 use crate::identify::{Candidate, Evidence, Face};
-use crate::lift::{LiftOptions, lift};
 
-/// Most edges of a drawing whose rival readings are lifted to see what contradicts them.
-const LIFTED: usize = 400;
-
-/// Log-odds against a reading for each face that lifting cannot reconcile with the others.
-const CONFLICT: f64 = 1.0;
-
-/// The most that conflicts count for, and what counts if a reading cannot be lifted at all.
-const CONFLICTS: f64 = 4.0;
+/// Log-odds against a reading for each of its planes that no plane of the axes holds.
+const BENT: f64 = 2.0;
 
 /// What readings of one drawing share.
 pub(super) struct Reader<'a> {
     pub(super) drawing: &'a Drawing,
     pub(super) field: &'a Field<'a>,
     pub(super) kinds: Option<&'a dyn LoopKinds>,
-    /// Whether readings have rivals, so that what lifts decides between them.
-    pub(super) rivals: bool,
+    /// The drawing's axes, if readings have rivals that what lifts decides between.
+    pub(super) frame: Option<&'a Frame>,
 }
 
 /// How sure the choices of a rotation system are.
@@ -113,13 +106,10 @@ impl Reader<'_> {
             })
             .collect();
         let mut score = plausibility(graph, &variant.system) - variant.loss;
-        if self.rivals && graph.edge_count() <= LIFTED {
-            let options = LiftOptions::default();
-            let best = candidates.first().map_or(faces.as_slice(), |c| &c.faces);
-            score -= match lift(self.drawing, best, &options, Progress::none()) {
-                Ok(lifted) => (CONFLICT * lifted.conflicts.len() as f64).min(CONFLICTS),
-                Err(_) => CONFLICTS,
-            };
+        if let Some(frame) = self.frame {
+            let bent = faces.iter().filter(|f| f.kind == SurfaceKind::Plane);
+            let bent = bent.filter(|f| frame.is_bent(f.loops[0].iter().map(|c| c.edge())));
+            score -= BENT * bent.count() as f64;
         }
         candidates.iter_mut().for_each(|c| c.score += score);
         candidates

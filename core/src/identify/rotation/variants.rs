@@ -41,7 +41,12 @@ pub(super) fn variants(
             });
         }
     };
-    for (v, _) in doubts.margins.iter().enumerate().filter(|(_, m)| **m < WORST) {
+    for (v, _) in doubts
+        .margins
+        .iter()
+        .enumerate()
+        .filter(|(_, m)| **m < WORST)
+    {
         if let Some(second) = field.best_order(&system, v, &every).second {
             let mut other = system.clone();
             other.set(graph, v, &second);
