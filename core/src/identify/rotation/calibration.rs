@@ -38,3 +38,17 @@ pub(super) fn grouping(share: f64) -> f64 {
     let share = share.clamp(1e-9, 1.0 - 1e-9);
     confidence((share / (1.0 - share)).ln(), GROUPS)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn more_margin_is_more_confidence() {
+        for line in [LOOPS, VERTICES] {
+            let [a, b, c] = [-1.0, 1.0, f64::INFINITY].map(|m| confidence(m, line));
+            assert!(0.0 < a && a < b && b < c && c == 1.0);
+        }
+        assert!(grouping(0.3) < grouping(0.9) && grouping(1.0) <= 1.0);
+    }
+}
