@@ -1,4 +1,7 @@
 //! From log-odds to probabilities that hold.
+//!
+//! The lines for loops and groupings are logistic fits (Platt 1999) to 340 drawings of real parts of
+//! six sources with a trained model's scores. Those for vertices are the scores' own.
 
 /// A line from a margin to the log-odds of being right.
 #[derive(Debug, Clone, Copy)]
@@ -11,8 +14,8 @@ pub(super) struct Line {
 
 /// For loops by the least margin of their choices.
 pub(super) const LOOPS: Line = Line {
-    slope: 1.0,
-    offset: 0.0,
+    slope: 0.063,
+    offset: 1.15,
 };
 
 /// For orders at vertices by their margin.
@@ -23,13 +26,20 @@ pub(super) const VERTICES: Line = Line {
 
 /// For faces by the log-odds that the search gives their grouping.
 const GROUPS: Line = Line {
-    slope: 1.0,
-    offset: 0.0,
+    slope: 0.10,
+    offset: 1.81,
 };
+
+/// Margin beyond which more of it says no more, log-odds.
+const SUREST: f64 = 60.0;
 
 /// Probability of being right at a margin, log-odds; an endless margin, where there is no choice,
 /// is certain.
 pub(super) fn confidence(margin: f64, line: Line) -> f64 {
+    if margin == f64::INFINITY {
+        return 1.0;
+    }
+    let margin = margin.min(SUREST);
     1.0 / (1.0 + (-(line.slope * margin + line.offset)).exp())
 }
 

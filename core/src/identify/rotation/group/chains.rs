@@ -34,12 +34,6 @@ const SKIPPED: f64 = 1.5;
 /// Cost of a face over the whole length of the chain.
 const LONG: f64 = 1.0;
 
-/// Cost of taking a loop out of a face that it shares with one elsewhere.
-const BREAK: f64 = 2.0;
-
-/// Cost of a face of two loops that are not one face as the axis lies.
-const ASKEW: f64 = 4.0;
-
 /// Cost of a circle or a silhouette of which neither side has a second loop.
 const FLAT_BODY: f64 = 8.0;
 
@@ -53,33 +47,11 @@ struct Ring {
     shift: f64,
 }
 
-/// Two rings that may be one face.
-#[derive(Debug, Clone, Copy)]
-struct Pair {
-    outer: usize,
-    inner: usize,
-    link: usize,
-    cost: f64,
-}
-
-/// What a ring shares a face with before it is matched.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Tie {
-    /// Nothing.
-    None,
-    /// A ring of the chain.
-    Own,
-    /// One loop elsewhere.
-    Once,
-    /// Loops elsewhere in a plane, perhaps beside a ring of the chain.
-    Plane,
-}
-
 /// The loops around one axis.
 pub(super) struct Chain {
     rings: Vec<Ring>,
-    /// Pairs of rings that may be one face.
-    pairs: Vec<Pair>,
+    /// Pairs that may be one face: outer and inner ring, link, and cost.
+    pairs: Vec<(usize, usize, usize, f64)>,
     /// Costs of leaving rings alone.
     alone: Vec<f64>,
     /// The other loop of a part that is one closed edge.
@@ -122,16 +94,6 @@ pub(super) fn chains(shapes: &Shapes, links: &[Link]) -> Vec<Chain> {
             None => groups.push((line.axis, off, vec![i])),
         }
     }
-    for (i, outline) in shapes.loops.iter().enumerate() {
-        let Some(line) = outline.middle else { continue };
-        let across = shapes.axes[line.axis].truncate().normalize_or_zero();
-        let off = line.at.perp_dot(across);
-        for group in &mut groups {
-            if group.0 == line.axis && (group.1 - off).abs() < 2e-3 * shapes.size {
-                group.2.push(i);
-            }
-        }
-    }
     let several = |list: &[usize]| {
         let first = shapes.loops[list[0]].part;
         list.iter().any(|&i| shapes.loops[i].part != first)
@@ -158,9 +120,7 @@ impl Chain {
         let rings: Vec<Ring> = list
             .iter()
             .filter_map(|&outline| {
-                let line = shapes.loops[outline]
-                    .line
-                    .or(shapes.loops[outline].middle)?;
+                let line = shapes.loops[outline].line?;
                 let along = line.at.dot(unit);
                 Some(Ring {
                     outline,
@@ -187,8 +147,8 @@ impl Chain {
                 continue;
             }
             let bare = |o: &super::shapes::Outline| {
-                let curved = link.kind == LinkKind::Coaxial;
-                shapes.parts[o.part].is_circle && !o.fold || o.curved == curved
+                shapes.parts[o.part].is_circle && !o.fold
+                    || o.curved == (link.kind == LinkKind::Coaxial)
             };
             if !bare(p) || !bare(q) {
                 continue;
@@ -204,12 +164,7 @@ impl Chain {
             if p.curved && q.curved && p.kind != q.kind && !p.fold && !q.fold {
                 cost += 1.0;
             }
-            pairs.push(Pair {
-                outer: a,
-                inner: b,
-                link: l,
-                cost,
-            });
+            pairs.push((a, b, l, cost));
         }
         let alone = rings
             .iter()
@@ -249,71 +204,54 @@ impl Chain {
         links: &[Link],
         state: &State,
     ) -> Vec<(State, f64)> {
-        let ties = self.ties(links, state);
-        let single = |r: usize| matches!(ties[r], Tie::None);
-        let mut now: f64 = self.present(state);
+        let own = |i: usize| self.rings.iter().position(|r| r.outline == i);
+        // Loops that share a face with a loop elsewhere stay there.
+        let mut fixed = vec![false; self.rings.len()];
+        let mut now = 0.0;
+        let mut together = vec![false; self.rings.len()];
+        for (outer, inner) in state.inner.iter().enumerate() {
+            for &i in inner {
+                match (own(outer), own(i)) {
+                    (Some(a), Some(b)) => {
+                        let pair = |p: &&(usize, usize, usize, f64)| (p.0, p.1) == (a, b);
+                        now += self.pairs.iter().find(pair).map_or(4.0, |p| p.3);
+                        (together[a], together[b]) = (true, true);
+                    }
+                    (Some(r), None) | (None, Some(r)) => fixed[r] = true,
+                    (None, None) => {}
+                }
+            }
+        }
+        for (r, fixed) in fixed.iter_mut().enumerate() {
+            *fixed &= !together[r];
+        }
+        let single = |r: usize| !together[r] && !fixed[r];
         for r in (0..self.rings.len()).filter(|&r| single(r)) {
             now += self.alone[r];
             if self.mate[r].is_some_and(|m| m < r && single(m)) {
                 now += FLAT_BODY;
             }
         }
-        let found = self.search(shapes, links, &ties);
+        let found = self.search(shapes, links, &fixed);
         match found.first() {
             Some(best) if best.cost < now - BETTER => found
                 .iter()
-                .map(|m| (self.applied(shapes, links, state, m), m.cost))
+                .map(|m| (self.applied(shapes, links, state, &fixed, m), m.cost))
                 .collect(),
             _ => Vec::new(),
         }
     }
 
-    fn place(&self, outline: usize) -> Option<usize> {
-        self.rings.iter().position(|r| r.outline == outline)
-    }
-
-    /// Cost of the pairs that a state has.
-    fn present(&self, state: &State) -> f64 {
-        let mut cost = 0.0;
-        for (outer, inner) in state.inner.iter().enumerate() {
-            let Some(a) = self.place(outer) else { continue };
-            for b in inner.iter().filter_map(|&i| self.place(i)) {
-                let same = |p: &&Pair| (p.outer, p.inner) == (a, b);
-                cost += self.pairs.iter().find(same).map_or(ASKEW, |p| p.cost);
-            }
-        }
-        cost
-    }
-
-    /// What each ring shares a face with.
-    fn ties(&self, links: &[Link], state: &State) -> Vec<Tie> {
-        let mut ties = vec![Tie::None; self.rings.len()];
-        for link in links
-            .iter()
-            .filter(|l| state.inner[l.outer].contains(&l.inner))
-        {
-            for (end, other) in [(link.outer, link.inner), (link.inner, link.outer)] {
-                let Some(r) = self.place(end) else { continue };
-                ties[r] = match (ties[r], self.place(other)) {
-                    (Tie::None | Tie::Own, Some(_)) => Tie::Own,
-                    (Tie::None, None) if state.inner[end].len() <= 1 => Tie::Once,
-                    _ => Tie::Plane,
-                };
-            }
-        }
-        ties
-    }
-
-    fn search(&self, shapes: &Shapes, links: &[Link], ties: &[Tie]) -> Vec<Partial> {
+    fn search(&self, shapes: &Shapes, links: &[Link], fixed: &[bool]) -> Vec<Partial> {
         let count = self.rings.len();
         let mut of: Vec<Vec<usize>> = vec![Vec::new(); count];
         for (k, pair) in self.pairs.iter().enumerate() {
             // The larger one comes first.
-            of[pair.outer.min(pair.inner)].push(k);
+            of[pair.0.min(pair.1)].push(k);
         }
         let mut beam = vec![Partial {
             cost: 0.0,
-            taken: vec![false; count],
+            taken: fixed.to_vec(),
             alone: vec![false; count],
             turned: Vec::new(),
             pairs: None,
@@ -326,26 +264,18 @@ impl Chain {
                     continue;
                 }
                 for &k in own {
-                    let pair = self.pairs[k];
-                    let (a, b) = (pair.outer, pair.inner);
+                    let (a, b, l, cost) = self.pairs[k];
                     if partial.taken[a] || partial.taken[b] {
                         continue;
                     }
-                    let link = &links[pair.link];
-                    // Further holes are in a plane with the loop.
-                    let holes = [a, b].iter().any(|&r| ties[r] == Tie::Plane);
-                    let hung = ties[b] == Tie::Plane;
-                    if hung || holes && link.kind == LinkKind::Coaxial {
-                        continue;
-                    }
-                    let broken = [a, b].iter().filter(|&&r| ties[r] == Tie::Once).count();
+                    let link = &links[l];
                     let parts = [link.outer, link.inner].map(|i| shapes.loops[i].part);
                     let Some(turned) = partial.turns(shapes, parts, link.same_sense) else {
                         continue;
                     };
                     let mut other = partial.clone();
                     other.turned = turned;
-                    other.cost += pair.cost + BREAK * broken as f64;
+                    other.cost += cost;
                     (other.taken[a], other.taken[b]) = (true, true);
                     other.pairs = Some(Rc::new(Chosen {
                         pair: k,
@@ -354,12 +284,8 @@ impl Chain {
                     next.push(other);
                 }
                 let mut lonely = partial;
-                lonely.taken[r] = true;
-                if matches!(ties[r], Tie::Once | Tie::Plane) {
-                    next.push(lonely);
-                    continue;
-                }
                 lonely.cost += self.alone[r];
+                lonely.taken[r] = true;
                 lonely.alone[r] = true;
                 if self.mate[r].is_some_and(|m| lonely.alone[m]) {
                     lonely.cost += FLAT_BODY;
@@ -384,7 +310,7 @@ impl Chain {
             };
             let mut key: Vec<[usize; 2]> = m
                 .chosen()
-                .map(|k| [part(self.pairs[k].outer), part(self.pairs[k].inner)])
+                .map(|k| [part(self.pairs[k].0), part(self.pairs[k].1)])
                 .collect();
             key.sort_unstable();
             let new = seen.len() < GIVEN && !seen.contains(&key);
@@ -396,35 +322,40 @@ impl Chain {
         beam
     }
 
-    fn applied(&self, shapes: &Shapes, links: &[Link], state: &State, matching: &Partial) -> State {
+    fn applied(
+        &self,
+        shapes: &Shapes,
+        links: &[Link],
+        state: &State,
+        fixed: &[bool],
+        matching: &Partial,
+    ) -> State {
         let mut state = state.clone();
-        let mut paired = vec![false; shapes.loops.len()];
-        for k in matching.chosen() {
-            let link = &links[self.pairs[k].link];
-            (paired[link.outer], paired[link.inner]) = (true, true);
-        }
-        // Faces within the chain are taken apart, and those of one loop elsewhere if the ring is
-        // matched; a plane with holes elsewhere keeps them.
-        let ties = self.ties(links, &state);
-        let breaks = |i: usize| {
-            self.place(i)
-                .is_some_and(|r| paired[i] && ties[r] == Tie::Once)
-        };
-        let inside = |i: usize| self.place(i).is_some();
-        for outer in 0..state.inner.len() {
+        let own = |i: usize| self.rings.iter().position(|r| r.outline == i);
+        for ring in &self.rings {
+            let outer = ring.outline;
             let list = std::mem::take(&mut state.inner[outer]);
-            let gone = |&i: &usize| inside(outer) && inside(i) || breaks(outer) || breaks(i);
-            let (gone, kept): (Vec<usize>, Vec<usize>) = list.into_iter().partition(gone);
-            gone.into_iter().for_each(|i| state.hung[i] = false);
+            let (inside, kept): (Vec<usize>, Vec<usize>) =
+                list.into_iter().partition(|&i| own(i).is_some());
+            for i in inside {
+                state.hung[i] = false;
+                if state.inner[i].is_empty() {
+                    state.roles[i] = Role::Free;
+                }
+            }
+            if kept.is_empty() && !state.hung[outer] {
+                state.roles[outer] = Role::Free;
+            }
             state.inner[outer] = kept;
         }
-        for i in 0..state.roles.len() {
-            if !state.hung[i] && state.inner[i].is_empty() {
-                state.roles[i] = Role::Free;
+        for (r, ring) in self.rings.iter().enumerate() {
+            // Unhung above in whatever order.
+            if !fixed[r] && !state.hung[ring.outline] && state.inner[ring.outline].is_empty() {
+                state.roles[ring.outline] = Role::Free;
             }
         }
         for k in matching.chosen() {
-            state.apply(&links[self.pairs[k].link]);
+            state.apply(&links[self.pairs[k].2]);
         }
         // Whatever is placed says how the axis lies.
         let base = self.rings.iter().find_map(|r| {

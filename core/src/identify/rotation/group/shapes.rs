@@ -10,9 +10,6 @@ use crate::lift::{Pieces, Tilt};
 /// Error of depth that is allowed, relative to the drawing's size.
 const SAME: f64 = 2e-3;
 
-/// Cosine from which a plane is normal to an axis.
-const ALONG: f64 = 0.9999;
-
 /// A loop.
 #[derive(Debug, Clone)]
 pub(super) struct Outline {
@@ -39,8 +36,6 @@ pub(super) struct Outline {
     pub(super) ring: bool,
     /// Axis of a circle, or of a curved face that is one of revolution.
     pub(super) line: Option<AxisLine>,
-    /// Line through the middle of a plane normal to an axis, if it is no circle.
-    pub(super) middle: Option<AxisLine>,
 }
 
 /// A part of the drawing that shares no vertex with the others.
@@ -300,40 +295,12 @@ fn outline(
         fold,
         ring,
         line: None,
-        middle: None,
     };
     if outline.ring || outline.curved {
         // A face of revolution goes around its axis.
         outline.line = axis_line(drawing, pieces, face).filter(|l| outline.contains(l.at));
     }
-    if outline.line.is_none()
-        && let Some(tilt) = outline.plane
-    {
-        let normal = DVec3::new(tilt.a, tilt.b, 1.0).normalize();
-        let axis = pieces.axes.iter().position(|a| a.dot(normal).abs() > ALONG);
-        let at = centroid(&outline.polygon);
-        outline.middle = axis.map(|axis| AxisLine {
-            axis,
-            at,
-            depth: tilt.depth(at),
-        });
-    }
     outline
-}
-
-/// Middle of the area inside a polygon, which parallel projection keeps.
-fn centroid(polygon: &[DVec2]) -> DVec2 {
-    let Some(&o) = polygon.first() else {
-        return DVec2::ZERO;
-    };
-    let (mut sum, mut total) = (DVec2::ZERO, 0.0);
-    for w in polygon.windows(2) {
-        let (p, q) = (w[0] - o, w[1] - o);
-        let twice = p.perp_dot(q);
-        sum += (p + q) * (twice / 3.0);
-        total += twice;
-    }
-    if total == 0.0 { o } else { o + sum / total }
 }
 
 fn area(polygon: &[DVec2]) -> f64 {
