@@ -160,7 +160,8 @@ impl Figures {
              faces   precision {:6.2}   recall {:6.2}   exact {:6.2}   exact in top 3 {:6.2}\n\
              types   paper's   {:6.2}   all six {:5.2}\n\
              loops   precision {:6.2}   recall {:6.2}   exact {:6.2}\n\
-             time    median {:.3} ms   99th percentile {:.3} ms\n",
+             time    median {:.3} ms   99th percentile {:.3} ms\n\
+             calibration error   faces {:.4}   loops {:.4}\n",
             s.drawings,
             s.faces,
             s.refused,
@@ -175,6 +176,8 @@ impl Figures {
             s.loops_exact,
             s.ms_median,
             s.ms_p99,
+            s.calibration_error,
+            s.loop_calibration_error,
         );
         // Writing to a string cannot fail.
         if let Some(s) = &self.solids {

@@ -28,6 +28,7 @@ pub fn from_truth(drawing: &Drawing) -> Option<Identification> {
         faces: faces.collect(),
         alternatives: Vec::new(),
         notices: Vec::new(),
+        vertices: Vec::new(),
     })
 }
 
@@ -41,6 +42,8 @@ struct FacesFile {
     alternatives: Vec<super::Candidate>,
     #[serde(default)]
     notices: Vec<String>,
+    #[serde(default)]
+    vertices: Vec<f64>,
 }
 
 /// Reads faces for a drawing from JSON: an [`Identification`] or a bare `{"faces": [...]}`.
@@ -69,6 +72,7 @@ pub fn read_faces(drawing: &Drawing, text: &str) -> Result<Identification, Ident
         faces: file.faces,
         alternatives: file.alternatives,
         notices: file.notices,
+        vertices: file.vertices,
     })
 }
 

@@ -17,6 +17,10 @@ pub struct Evidence {
     /// Largest distance of the face's vertices from its lifted surface, in drawing units.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub residual: Option<f64>,
+    /// Probability that each of its loops is right, 0 to 1, whatever face it belongs to; empty if
+    /// the engine cannot tell.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub loops: Vec<f64>,
 }
 
 /// A face of the solid as the drawing shows it.
@@ -74,6 +78,10 @@ pub struct Identification {
     /// What the user should know, for instance a fallback that was taken.
     #[serde(default)]
     pub notices: Vec<String>,
+    /// Probability that the edges around each vertex of the drawing follow each other as in the
+    /// faces, 0 to 1; empty if the engine cannot tell.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub vertices: Vec<f64>,
 }
 
 /// A method that finds the faces of a drawing.

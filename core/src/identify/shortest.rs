@@ -78,6 +78,7 @@ impl Engine for ShortestEngine {
             faces,
             alternatives: Vec::new(),
             notices: Vec::new(),
+            vertices: Vec::new(),
         })
     }
 }

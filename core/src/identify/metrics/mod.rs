@@ -10,9 +10,11 @@
 //! - An empty prediction has precision and recall 0, and so has a drawing that an engine refused.
 //! - `exact` asks for the right sets of edges, no more and no fewer; types do not count in it.
 
+mod calibration;
 mod score;
 mod summary;
 
+pub use calibration::{BINS, Bin, Bins};
 pub use score::DrawingScore;
 pub use summary::{Summary, median};
 

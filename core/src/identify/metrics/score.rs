@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::calibration::Bins;
 use serde::{Deserialize, Serialize};
 
 use crate::drawing::{CoEdge, SurfaceKind, Truth};
@@ -30,6 +31,10 @@ pub struct DrawingScore {
     pub exact_top3: bool,
     /// Whether the engine refused the drawing.
     pub refused: bool,
+    /// Confidences of the predicted faces, and whether they are true ones.
+    pub face_bins: Bins,
+    /// Confidences of the predicted loops that have one, and whether they are true ones.
+    pub loop_bins: Bins,
     /// Time the engine took, in milliseconds.
     pub ms: f64,
 }
@@ -52,6 +57,14 @@ impl DrawingScore {
                 loops.add(edges(walk), SurfaceKind::Plane, false);
             }
         }
+        let (mut face_bins, mut loop_bins) = (Bins::default(), Bins::default());
+        for face in &found.faces {
+            let own = edges(face.loops.iter().flatten());
+            face_bins.add(face.confidence, kinds.is_true(&own));
+            for (walk, confidence) in face.loops.iter().zip(&face.evidence.loops) {
+                loop_bins.add(*confidence, loops.is_true(&edges(walk)));
+            }
+        }
         let alternatives = found.alternatives.iter().take(2);
         let exact_top3 =
             kinds.is_exact() || alternatives.into_iter().any(|c| true_sets.equals(&c.faces));
@@ -66,6 +79,8 @@ impl DrawingScore {
             loops_matched: loops.common(|_| 0),
             exact_top3,
             refused: false,
+            face_bins,
+            loop_bins,
             ms,
         }
     }
@@ -161,6 +176,13 @@ impl Table {
                 pairs.map(|(t, f)| t.min(f)).sum::<usize>()
             })
             .sum()
+    }
+
+    /// Whether a true item has these edges.
+    fn is_true(&self, edges: &[usize]) -> bool {
+        self.0
+            .get(edges)
+            .is_some_and(|[truth, _]| !truth.is_empty())
     }
 
     fn is_exact(&self) -> bool {

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::calibration::Bins;
 use super::score::{DrawingScore, share};
 
 /// The identification part of what `faceformer eval --json` prints; shares are 0 to 100.
@@ -43,6 +44,14 @@ pub struct Summary {
     pub ms_median: f64,
     /// 99th percentile (nearest rank) of the same times.
     pub ms_p99: f64,
+    /// Expected calibration error of faces' confidences, 0 to 1; see [`Bins::error`].
+    pub calibration_error: f64,
+    /// The same of loops' confidences.
+    pub loop_calibration_error: f64,
+    /// Confidences of all predicted faces.
+    pub face_bins: Bins,
+    /// Confidences of all predicted loops that have one.
+    pub loop_bins: Bins,
 }
 
 impl Summary {
@@ -55,6 +64,11 @@ impl Summary {
         let matched = sum(|s| s.matched);
         let mut times: Vec<f64> = scores.iter().filter(|s| !s.refused).map(|s| s.ms).collect();
         times.sort_unstable_by(f64::total_cmp);
+        let (mut face_bins, mut loop_bins) = (Bins::default(), Bins::default());
+        for score in scores {
+            face_bins.extend(&score.face_bins);
+            loop_bins.extend(&score.loop_bins);
+        }
         Self {
             drawings: scores.len(),
             faces: sum(|s| s.faces),
@@ -70,6 +84,10 @@ impl Summary {
             refused: sum(|s| usize::from(s.refused)),
             ms_median: median(&times),
             ms_p99: nearest_rank(&times, 0.99),
+            calibration_error: face_bins.error(),
+            loop_calibration_error: loop_bins.error(),
+            face_bins,
+            loop_bins,
         }
     }
 }

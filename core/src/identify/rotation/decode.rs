@@ -124,6 +124,16 @@ impl<'a> Field<'a> {
         self.gains(system, vertex, fixed).best(Some(&current))
     }
 
+    /// Lead of the order at a vertex over the best other one, all other vertices as they are,
+    /// log-odds; negative if another one is better.
+    pub(super) fn margin(&self, system: &RotationSystem, vertex: usize, fixed: &[bool]) -> f64 {
+        let current = system.order(self.graph, vertex);
+        let gains = self.gains(system, vertex, fixed);
+        let best = gains.best(Some(&current));
+        let behind = best.gain - gains.of(&current);
+        if behind > GAIN { -behind } else { best.margin }
+    }
+
     /// The rotation system: grown vertex by vertex, the surest next, then improved by conditional
     /// modes and by reversing parts of a component.
     ///

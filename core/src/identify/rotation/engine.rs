@@ -1,17 +1,18 @@
 //! The engine: score, decode, read off loops.
 
-use super::cuts::Cuts;
-use super::group::{Grouping, group};
+use super::frame::Frame;
+use super::reading::{Doubts, Reader};
+use super::variants::variants;
 use super::{Field, HandScorer, TripleScorer, Triples, model};
-use crate::drawing::{CoEdge, Drawing, Graph, SurfaceKind};
-use crate::identify::kinds::kinds_of;
-use crate::identify::{
-    Candidate, Engine, EngineKind, Evidence, Face, Identification, IdentifyError,
-};
+use crate::drawing::{Drawing, Graph};
+use crate::identify::{Engine, EngineKind, Identification, IdentifyError};
 use crate::{Progress, Result, Stage};
 
 /// Most edges at one vertex that the engine handles.
 pub const MAX_DEGREE: usize = 24;
+
+/// Sets of faces that are given at most, the best one included.
+const CANDIDATES: usize = 6;
 
 /// Faces from a rotation system; see the [module](super).
 pub struct RotationEngine {
@@ -69,68 +70,47 @@ impl Engine for RotationEngine {
         let field = Field::new(&graph, &triples, &scores.log_odds);
         let system = field.decode();
         progress.report(Stage::Identify, 0.6)?;
-        let cuts = Cuts::new(&field, &system);
-        let every = vec![true; graph.vertex_count()];
-        let sureness: Vec<f64> = (0..graph.vertex_count())
-            .map(|v| field.best_order(&system, v, &every).margin)
-            .collect();
-        let margin = |walk: &[CoEdge]| {
-            let at = |c: &CoEdge| {
-                let (u, v) = (graph.origin(*c), graph.head(*c));
-                sureness[u].min(cuts.between(u, v))
-            };
-            walk.iter().map(at).fold(f64::INFINITY, f64::min)
+        let doubts = Doubts::new(&field, &system);
+        let readings = variants(&field, system, &doubts);
+        let frame = (readings.len() > 1).then(|| Frame::new(drawing));
+        let reader = Reader {
+            drawing,
+            field: &field,
+            kinds: scores.kinds.as_deref(),
+            frame: frame.as_ref(),
         };
-        let walks = system.loops();
-        let kinds: Vec<SurfaceKind> = match &scores.kinds {
-            Some(told) => {
-                let kinds = told.kinds(&graph, &triples, &walks);
-                kinds.into_iter().map(|(kind, _)| kind).collect()
-            }
-            None => kinds_of(
-                drawing,
-                &walks.iter().map(Vec::as_slice).collect::<Vec<_>>(),
-            ),
-        };
-        let faces: Vec<Face> = walks
-            .into_iter()
-            .zip(kinds)
-            .map(|(walk, kind)| {
-                let margin = margin(&walk);
-                Face {
-                    kind,
-                    loops: vec![walk],
-                    confidence: confidence(margin),
-                    evidence: Evidence {
-                        votes: 1,
-                        margin: margin.is_finite().then_some(margin),
-                        residual: None,
-                    },
-                }
-            })
-            .collect();
-        progress.report(Stage::Identify, 0.7)?;
-        let mut candidates = group(drawing, &graph, &faces)
-            .into_iter()
-            .map(|grouping| Candidate {
-                faces: merged(&faces, &grouping),
-                score: grouping.score,
-            });
-        let best = candidates.next().map_or(faces.clone(), |c| c.faces);
-        let alternatives = candidates.collect();
+        let mut sure = Vec::with_capacity(readings.len());
+        let mut candidates = Vec::new();
+        for (k, reading) in readings.iter().enumerate() {
+            progress.report(
+                Stage::Identify,
+                0.6 + 0.4 * k as f64 / readings.len() as f64,
+            )?;
+            let doubts = Doubts::new(&field, &reading.system);
+            let own = reader.candidates(reading, &doubts);
+            candidates.extend(own.into_iter().map(|c| (k, c)));
+            sure.push(doubts.vertices());
+        }
+        // Stable: of equals, the reading with the better score comes first.
+        candidates.sort_by(|a, b| b.1.score.total_cmp(&a.1.score));
+        candidates.truncate(CANDIDATES);
+        let top = candidates.first().map_or(0.0, |(_, c)| c.score);
+        candidates.iter_mut().for_each(|(_, c)| c.score -= top);
+        let mut candidates = candidates.into_iter();
+        let (faces, vertices) = candidates
+            .next()
+            .map(|(k, c)| (c.faces, sure.swap_remove(k)))
+            .unwrap_or_default();
+        let alternatives = candidates.map(|(_, c)| c).collect();
         progress.report(Stage::Identify, 1.0)?;
         Ok(Identification {
             engine: self.name().to_owned(),
-            faces: best,
+            faces,
             alternatives,
             notices,
+            vertices,
         })
     }
-}
-
-/// Probability that a loop is right whose least sure decision is ahead by `margin` log-odds.
-fn confidence(margin: f64) -> f64 {
-    1.0 / (1.0 + (-margin).exp())
 }
 
 /// Refuses edges that end freely and vertices with too many edges to be one of a solid's.
@@ -153,42 +133,4 @@ fn check_degrees(graph: &Graph) -> Result<(), IdentifyError> {
         }
     }
     Ok(())
-}
-
-/// The faces that a grouping makes of loops.
-fn merged(loops: &[Face], grouping: &Grouping) -> Vec<Face> {
-    let walk = |i: usize| {
-        let mut walk = loops[i].loops[0].clone();
-        if grouping.reversed[i] {
-            walk.reverse();
-            walk.iter_mut().for_each(|c| *c = c.mate());
-        }
-        walk
-    };
-    let whole = |list: &[usize]| {
-        let kinds = list.iter().map(|&i| loops[i].kind);
-        // Two circles with nothing drawn between them: of what they bound a cone is likeliest.
-        let curved = |k: &SurfaceKind| *k != SurfaceKind::Plane;
-        kinds.filter(curved).min().unwrap_or(SurfaceKind::Cone)
-    };
-    let faces = grouping
-        .faces
-        .iter()
-        .zip(grouping.sureness.iter().zip(&grouping.round));
-    faces
-        .map(|(list, (sureness, round))| {
-            let mut face = loops[list[0]].clone();
-            if *round {
-                face.kind = whole(list);
-            }
-            for &i in &list[1..] {
-                face.confidence = face.confidence.min(loops[i].confidence);
-                let margins = [face.evidence.margin, loops[i].evidence.margin];
-                face.evidence.margin = margins.into_iter().flatten().reduce(f64::min);
-            }
-            face.loops = list.iter().map(|&i| walk(i)).collect();
-            face.confidence *= sureness;
-            face
-        })
-        .collect()
 }

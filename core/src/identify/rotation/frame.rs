@@ -65,6 +65,18 @@ impl Frame {
         self.fits[edge]
     }
 
+    /// Whether edges that follow axes cannot be in one plane.
+    pub(super) fn is_bent(&self, edges: impl Iterator<Item = usize>) -> bool {
+        // Without a frame of three axes nothing is known of planes.
+        let straight = edges
+            .filter_map(|e| self.fits[e])
+            .filter(|f| f.straight && f.planes != 0);
+        let common = straight.fold(None, |all: Option<u8>, f| {
+            Some(all.map_or(f.planes, |a| a & f.planes))
+        });
+        common == Some(0)
+    }
+
     /// How three edges go together.
     pub(super) fn agreement(&self, edges: [usize; 3]) -> Agreement {
         let [Some(a), Some(b), Some(c)] = edges.map(|e| self.fits[e]) else {

@@ -1,6 +1,7 @@
 //! The rotation engine: scores for triples of edges, a rotation system decoded from them, loops
 //! as its orbits, and faces as groups of loops that lie on one surface.
 
+mod calibration;
 mod crossing;
 mod cuts;
 mod cycles;
@@ -14,6 +15,7 @@ mod hand;
 pub mod inputs;
 pub mod model;
 mod orders;
+mod reading;
 mod rings;
 #[cfg(test)]
 mod samples;
@@ -21,6 +23,7 @@ mod scorer;
 pub mod shards;
 mod system;
 mod triples;
+mod variants;
 
 pub use decode::Field;
 pub use engine::{MAX_DEGREE, RotationEngine};

@@ -92,7 +92,7 @@ impl Engine for VarleyEngine {
             evidence: Evidence {
                 votes: 1,
                 margin: margin.is_finite().then_some(margin),
-                residual: None,
+                ..Evidence::default()
             },
         });
         Ok(Identification {
@@ -100,6 +100,7 @@ impl Engine for VarleyEngine {
             faces: faces.collect(),
             alternatives: Vec::new(),
             notices,
+            vertices: Vec::new(),
         })
     }
 }

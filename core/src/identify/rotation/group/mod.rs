@@ -8,10 +8,12 @@
 //! 3. [`joins`]: links of a part that imply the same move support each other and make one join,
 //! 4. [`body`]: whether a part so placed is a pocket, a hole or a boss that a solid can have,
 //! 5. [`score`]: how likely a join is,
-//! 6. [`search`]: the likeliest joins of all parts, and ranked alternatives.
+//! 6. [`search`]: the likeliest joins of all parts, and ranked alternatives,
+//! 7. [`chains`]: circles and silhouettes around one axis, matched all at once.
 
 mod axis;
 mod body;
+mod chains;
 mod joins;
 mod links;
 mod score;

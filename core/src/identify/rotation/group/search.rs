@@ -9,6 +9,7 @@ use std::collections::{BTreeSet, BinaryHeap};
 
 use super::Grouping;
 use super::body::Place;
+use super::chains::{Chain, chains};
 use super::joins::{Join, Joiner, Role, State};
 use super::links::{Link, LinkKind};
 use super::score::JoinScorer;
@@ -28,6 +29,7 @@ const WAIT: f64 = 2.0;
 
 pub(super) struct Search<'a> {
     joiner: Joiner<'a>,
+    chains: Vec<Chain>,
     /// Links to other parts, of each part.
     own: Vec<Vec<usize>>,
 }
@@ -105,6 +107,7 @@ impl<'a> Search<'a> {
             }
         }
         Self {
+            chains: chains(shapes, links),
             joiner: Joiner {
                 shapes,
                 links,
@@ -142,8 +145,44 @@ impl<'a> Search<'a> {
         found
     }
 
+    /// Keeps the groupings that a run leads to and that are new: the likeliest matching of its
+    /// chains, and for each chain the next ones.
     fn keep(&self, run: &Run, seen: &mut BTreeSet<Vec<Vec<usize>>>, found: &mut Vec<Grouping>) {
-        let grouping = self.grouping(run);
+        let mut best = run.states[run.states.len() - 1].clone();
+        let mut others: Vec<(State, f64)> = Vec::new();
+        for chain in &self.chains {
+            let mut ranked = chain.matchings(self.joiner.shapes, self.joiner.links, &best);
+            if ranked.is_empty() {
+                continue;
+            }
+            let first = ranked.remove(0);
+            // What differs in an earlier chain keeps the likeliest matching of this one.
+            for (state, _) in &mut others {
+                let own = chain.matchings(self.joiner.shapes, self.joiner.links, state);
+                if let Some((matched, _)) = own.into_iter().next() {
+                    *state = matched;
+                }
+            }
+            let behind = |(state, cost): (State, f64)| (state, cost - first.1);
+            others.extend(ranked.into_iter().map(behind));
+            best = first.0;
+        }
+        self.keep_one(run, &best, 0.0, seen, found);
+        for (state, behind) in &others {
+            self.keep_one(run, state, *behind, seen, found);
+        }
+    }
+
+    fn keep_one(
+        &self,
+        run: &Run,
+        state: &State,
+        behind: f64,
+        seen: &mut BTreeSet<Vec<Vec<usize>>>,
+        found: &mut Vec<Grouping>,
+    ) {
+        let mut grouping = self.grouping(run, state);
+        grouping.score -= behind;
         let mut key: Vec<Vec<usize>> = grouping
             .faces
             .iter()
@@ -289,10 +328,9 @@ impl<'a> Search<'a> {
         }
     }
 
-    fn grouping(&self, run: &Run) -> Grouping {
+    fn grouping(&self, run: &Run, state: &State) -> Grouping {
         let shapes = self.joiner.shapes;
         let count = shapes.loops.len();
-        let state = &run.states[run.states.len() - 1];
         let mut owner: Vec<usize> = (0..count).collect();
         for (outer, inner) in state.inner.iter().enumerate() {
             for &i in inner {

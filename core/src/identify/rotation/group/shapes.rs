@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::axis::{AxisLine, axis_line, is_ring};
-use crate::drawing::{Drawing, Graph, SurfaceKind};
+use crate::drawing::{Curve2, Drawing, Graph, SurfaceKind};
 use crate::identify::Face;
 use crate::lift::{Pieces, Tilt};
 
@@ -27,6 +27,11 @@ pub(super) struct Outline {
     pub(super) plane: Option<Tilt>,
     /// Whether it bounds no plane.
     pub(super) curved: bool,
+    /// Kind of its surface as it looks alone.
+    pub(super) kind: SurfaceKind,
+    /// Whether it is one closed edge that is no circle: a silhouette, with a curved face on either
+    /// side.
+    pub(super) fold: bool,
     /// Whether it is a whole circle.
     pub(super) ring: bool,
     /// Axis of a circle, or of a curved face that is one of revolution.
@@ -265,7 +270,15 @@ fn outline(
         .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(l, h), p| {
             (l.min(*p), h.max(*p))
         });
-    let curved = face.kind != SurfaceKind::Plane;
+    // A closed edge that shares no vertex and is no circle is the outline of a curved surface.
+    let fold = match face.loops.concat().as_slice() {
+        [only] => {
+            pieces.circle(only.edge()).is_none()
+                && matches!(drawing.edges[only.edge()].curve, Curve2::Polyline)
+        }
+        _ => false,
+    };
+    let curved = face.kind != SurfaceKind::Plane || fold;
     let plane = (!curved).then(|| pieces.plane(index)).flatten();
     let ring = is_ring(drawing, pieces, face);
     let mut outline = Outline {
@@ -278,6 +291,8 @@ fn outline(
         high,
         plane,
         curved,
+        kind: face.kind,
+        fold,
         ring,
         line: None,
     };
