@@ -52,5 +52,6 @@ pub fn true_lift(drawing: &Drawing) -> Option<Lift> {
         method: LiftMethod::Exact,
         residual: ROUNDED,
         conflicts: Vec::new(),
+        regular: None,
     })
 }
