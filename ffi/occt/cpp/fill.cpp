@@ -58,13 +58,13 @@ Handle(Geom_TrimmedCurve) trimmed(std::int32_t coedge, const Topology &topology)
 }
 
 // The sides' own curves are rational where they are circles, and weights spoil the sum of Coons:
-// it then misses its sides unless opposite ones have equal weights.
-Handle(Geom_BSplineSurface) coons(const Loop &loop, const Topology &topology, bool weightless) {
+// it then bulges between its sides, and misses them if opposite ones have other weights.
+Handle(Geom_BSplineSurface) coons(const Loop &loop, const Topology &topology) {
   Handle(Geom_BSplineCurve) sides[4];
   for (int i = 0; i < 4; ++i) {
     const Handle(Geom_TrimmedCurve) side = trimmed(loop.coedges[i], topology);
     sides[i] = GeomConvert::CurveToBSplineCurve(side);
-    if (weightless && sides[i]->IsRational()) {
+    if (sides[i]->IsRational()) {
       const GeomConvert_ApproxCurve approximation(sides[i], kWeightless, GeomAbs_C1,
                                                   kWeightlessPieces, kWeightlessDegree);
       if (approximation.HasResult()) {
@@ -129,8 +129,7 @@ Handle(Geom_BSplineSurface) fill(const Face &face, const Topology &topology) {
   std::vector<Attempt> attempts;
   if (face.loops.size() == 1 && face.loops.front().coedges.size() == 4) {
     const Loop &loop = face.loops.front();
-    attempts.emplace_back([&] { return coons(loop, topology, false); });
-    attempts.emplace_back([&] { return coons(loop, topology, true); });
+    attempts.emplace_back([&] { return coons(loop, topology); });
   }
   attempts.emplace_back([&] { return plate(face, topology, kCoarse); });
   attempts.emplace_back([&] { return plate(face, topology, kFine); });

@@ -275,7 +275,7 @@ mod tests {
     #[test]
     fn a_stretched_solid_is_wrong() {
         // A block, 5% too deep.
-        let found = compared("asitus/00010#o0", |lift| {
+        let found = compared("moteus/00038#o0", |lift| {
             let stretch = DVec3::new(1.0, 1.0, 1.05);
             lift.depths.iter_mut().for_each(|z| *z *= stretch.z);
             for surface in &mut lift.surfaces {
