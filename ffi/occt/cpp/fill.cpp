@@ -32,6 +32,8 @@ constexpr double kWeightless = 1e-5;
 constexpr int kWeightlessPieces = 64;
 constexpr int kWeightlessDegree = 8;
 
+constexpr int kCoonsDegree = 3;
+
 // A plate passes its edges at so many points of all together, at least and at most so many of
 // each; its approximation by so many pieces stays within these inner units of it.
 struct Plating {
@@ -71,6 +73,8 @@ Handle(Geom_BSplineSurface) coons(const Loop &loop, const Topology &topology) {
         sides[i] = approximation.Curve();
       }
     }
+    // The sum of Coons wants four poles on every side; a line has two.
+    sides[i]->IncreaseDegree(std::max(kCoonsDegree, sides[i]->Degree()));
   }
   const GeomFill_BSplineCurves filling(sides[0], sides[1], sides[2], sides[3],
                                        GeomFill_CoonsStyle);

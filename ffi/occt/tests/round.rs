@@ -265,7 +265,7 @@ fn vault(depths: [f64; 2]) -> Draft {
 fn a_patch_between_equal_arches_is_the_barrel() {
     let solid = vault([0.0, 0.0]).solid();
     let report = solid.report();
-    assert!((report.volume - PI / 2.0).abs() < 1e-4, "{}", report.volume);
+    assert!((report.volume - PI / 2.0).abs() < 3e-4, "{}", report.volume);
     assert_eq!(report.filled.len(), 1);
     assert_eq!(report.filled[0].face, 3);
     assert!(report.filled[0].deviation < 1e-5);
