@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from OCP.BRep import BRep_Tool
 from OCP.BRepMesh import BRepMesh_IncrementalMesh
-from OCP.BRepTools import BRepTools_WireExplorer
+from OCP.BRepTools import BRepTools, BRepTools_WireExplorer
 from OCP.TopAbs import (
     TopAbs_EDGE,
     TopAbs_FACE,
@@ -59,6 +59,19 @@ class BrepEdge:
     """Both faces are curved and have the same normals along it."""
 
 
+# OCCT fails to mesh a face now and then; it seldom fails with a finer or coarser mesh as well.
+MESHES = (1.0, 0.5, 2.5)
+
+
+def _mesh(solid: TopoDS_Solid, options: ProjectOptions) -> None:
+    for factor in MESHES:
+        BRepTools.Clean_s(solid)
+        deflection, angle = factor * options.mesh_deflection, factor * options.mesh_angle
+        BRepMesh_IncrementalMesh(solid, deflection, False, angle, False)
+        if BRepTools.Triangulation_s(solid, 2 * deflection):
+            return
+
+
 @dataclass
 class BrepFace:
     """A face: ``reversed`` where its outward normal is against the natural one."""
@@ -84,7 +97,7 @@ class Brep:
 
     def __init__(self, solid: TopoDS_Solid, options: ProjectOptions) -> None:
         self.options = options
-        BRepMesh_IncrementalMesh(solid, options.mesh_deflection, False, options.mesh_angle, False)
+        _mesh(solid, options)
         edge_map, vertex_map, face_map = (TopTools_IndexedMapOfShape() for _ in range(3))
         TopExp.MapShapes_s(solid, TopAbs_EDGE, edge_map)
         TopExp.MapShapes_s(solid, TopAbs_VERTEX, vertex_map)

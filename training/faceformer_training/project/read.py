@@ -94,11 +94,13 @@ def _index(path: Path) -> dict[str, str]:
     sources = {}
     for line in path.read_text("utf-8").splitlines():
         row = json.loads(line)
-        part = f":{row['name']}" if row.get("name") else ""
-        sources[row["id"]] = (
-            f"github.com/{row.get('repo', '')} {row.get('path', '')}{part} "
-            f"({row.get('licence', 'licence unknown')})"
-        )
+        if row.get("source") == "generated":
+            place = f"generated, seed {row['seed']}, mix {row['mix']}, number {row['n']}"
+        else:
+            part = f":{row['name']}" if row.get("name") else ""
+            place = f"github.com/{row.get('repo', '')} {row.get('path', '')}{part}"
+            place += f" ({row.get('licence', 'licence unknown')})"
+        sources[row["id"]] = place
     return sources
 
 
