@@ -30,8 +30,7 @@ impl RotationEngine {
     }
 
     /// The engine with the model that is asked for: by `name`, a file or [`model::NONE`], else by
-    /// the environment variable [`model::VARIABLE`], else the one that comes with the program, if
-    /// there is one.
+    /// the environment variable [`model::VARIABLE`], else the one that comes with the program.
     ///
     /// A model that cannot be used is replaced by the hand-made scores, and every result says so.
     pub fn with_model(name: Option<&str>) -> Self {

@@ -13,6 +13,7 @@ mod frame;
 mod group;
 mod hand;
 pub mod inputs;
+mod looks;
 pub mod model;
 mod orders;
 mod reading;

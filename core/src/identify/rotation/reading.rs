@@ -4,10 +4,10 @@ use super::calibration::{self, LOOPS, VERTICES};
 use super::cuts::Cuts;
 use super::frame::Frame;
 use super::group::{Grouping, group};
+use super::looks::Looks;
 use super::variants::{Variant, plausibility};
 use super::{Field, LoopKinds, RotationSystem};
 use crate::drawing::{CoEdge, Drawing, Graph, SurfaceKind};
-use crate::identify::kinds::kinds_of;
 use crate::identify::{Candidate, Evidence, Face};
 
 /// Log-odds against a reading for each of its planes that no plane of the axes holds.
@@ -68,20 +68,17 @@ impl Reader<'_> {
     pub(super) fn candidates(&self, variant: &Variant, doubts: &Doubts<'_>) -> Vec<Candidate> {
         let graph = self.field.graph();
         let walks = variant.system.loops();
-        let kinds: Vec<SurfaceKind> = match self.kinds {
-            Some(told) => {
-                let kinds = told.kinds(graph, self.field.triples(), &walks);
-                kinds.into_iter().map(|(kind, _)| kind).collect()
-            }
-            None => {
-                let walks: Vec<&[CoEdge]> = walks.iter().map(Vec::as_slice).collect();
-                kinds_of(self.drawing, &walks)
-            }
-        };
+        let looks = Looks::new(
+            self.drawing,
+            graph,
+            self.field.triples(),
+            &walks,
+            self.kinds,
+        );
         let faces: Vec<Face> = walks
             .into_iter()
-            .zip(kinds)
-            .map(|(walk, kind)| {
+            .zip(&looks.kinds)
+            .map(|(walk, &kind)| {
                 let margin = doubts.along(&walk);
                 let confidence = calibration::confidence(margin, LOOPS);
                 Face {
@@ -101,7 +98,7 @@ impl Reader<'_> {
         let mut candidates: Vec<Candidate> = groupings
             .iter()
             .map(|grouping| Candidate {
-                faces: merged(&faces, grouping),
+                faces: merged(&faces, &looks, grouping),
                 score: grouping.score,
             })
             .collect();
@@ -117,7 +114,7 @@ impl Reader<'_> {
 }
 
 /// The faces that a grouping makes of loops.
-fn merged(loops: &[Face], grouping: &Grouping) -> Vec<Face> {
+fn merged(loops: &[Face], looks: &Looks, grouping: &Grouping) -> Vec<Face> {
     let walk = |i: usize| {
         let mut walk = loops[i].loops[0].clone();
         if grouping.reversed[i] {
@@ -126,22 +123,15 @@ fn merged(loops: &[Face], grouping: &Grouping) -> Vec<Face> {
         }
         walk
     };
-    let whole = |list: &[usize]| {
-        let kinds = list.iter().map(|&i| loops[i].kind);
-        // Two circles with nothing drawn between them: of what they bound a cone is likeliest.
-        let curved = |k: &SurfaceKind| *k != SurfaceKind::Plane;
-        kinds.filter(curved).min().unwrap_or(SurfaceKind::Cone)
-    };
     let faces = grouping
         .faces
         .iter()
-        .zip(grouping.sureness.iter().zip(&grouping.round));
+        .zip(looks.of_faces(grouping))
+        .zip(&grouping.sureness);
     faces
-        .map(|(list, (sureness, round))| {
+        .map(|((list, kind), sureness)| {
             let mut face = loops[list[0]].clone();
-            if *round {
-                face.kind = whole(list);
-            }
+            face.kind = kind;
             for &i in &list[1..] {
                 face.confidence = face.confidence.min(loops[i].confidence);
                 let margins = [face.evidence.margin, loops[i].evidence.margin];

@@ -1,7 +1,8 @@
 //! The interface between scoring and decoding.
 
 use super::Triples;
-use crate::drawing::{CoEdge, Drawing, Graph, SurfaceKind};
+use super::shards::KINDS;
+use crate::drawing::{CoEdge, Drawing, Graph};
 use crate::{Progress, Result};
 
 /// Says how likely every triple is to be part of a face.
@@ -46,11 +47,11 @@ impl From<Vec<f64>> for Scores {
 
 /// Tells which kind of surface a loop bounds.
 pub trait LoopKinds {
-    /// The most likely kind for each loop, a closed walk, and its probability.
+    /// The probability of each of the [`KINDS`] for each loop, a closed walk.
     fn kinds(
         &self,
         graph: &Graph,
         triples: &Triples,
         loops: &[Vec<CoEdge>],
-    ) -> Vec<(SurfaceKind, f64)>;
+    ) -> Vec<[f64; KINDS.len()]>;
 }

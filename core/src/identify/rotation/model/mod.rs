@@ -18,7 +18,7 @@ pub use network::{Config, Encoded, Network};
 use super::inputs::Inputs;
 use super::shards::KINDS;
 use super::{HandScorer, LoopKinds, Scores, TripleScorer, Triples};
-use crate::drawing::{CoEdge, Drawing, Graph, SurfaceKind};
+use crate::drawing::{CoEdge, Drawing, Graph};
 use crate::{Progress, Stage};
 
 /// Most edges that the model is asked about: the attention's tables grow with their square.
@@ -30,8 +30,12 @@ pub const VARIABLE: &str = "FACEFORMER_MODEL";
 /// Name that stands for "no model": the hand-made scores.
 pub const NONE: &str = "none";
 
-/// Weights and description of the model that comes with the program.
-const SHIPPED: Option<(&[u8], &str)> = None;
+/// Weights and description of the model that comes with the program; `training/README.md` says how
+/// it was trained.
+const SHIPPED: (&[u8], &str) = (
+    include_bytes!("../../../../models/rotation.safetensors"),
+    include_str!("../../../../models/rotation.json"),
+);
 
 /// The model to use: by `name`, else by [`VARIABLE`], else the one that comes with the program.
 /// `None` stands for the hand-made scores.
@@ -45,16 +49,17 @@ pub(super) fn choose(name: Option<&str>) -> Result<Option<ModelScorer>, String> 
         Some(path) => ModelScorer::open(Path::new(path))
             .map(Some)
             .map_err(|e| format!("the model {path} is not used, the hand-made scores are: {e}")),
-        None => shipped().transpose().map_err(|e| {
+        None => shipped().map(Some).map_err(|e| {
             format!("the program's own model is not used, the hand-made scores are: {e}")
         }),
     }
 }
 
 /// The model that comes with the program, made once a process.
-fn shipped() -> Option<Result<ModelScorer, ModelError>> {
-    static MADE: OnceLock<Option<Result<ModelScorer, ModelError>>> = OnceLock::new();
-    let make = || SHIPPED.map(|(weights, text)| load(weights.to_vec(), text).map(ModelScorer::new));
+fn shipped() -> Result<ModelScorer, ModelError> {
+    static MADE: OnceLock<Result<ModelScorer, ModelError>> = OnceLock::new();
+    let (weights, text) = SHIPPED;
+    let make = || load(weights.to_vec(), text).map(ModelScorer::new);
     MADE.get_or_init(make).clone()
 }
 
@@ -145,7 +150,7 @@ impl LoopKinds for Kinds {
         graph: &Graph,
         triples: &Triples,
         loops: &[Vec<CoEdge>],
-    ) -> Vec<(SurfaceKind, f64)> {
+    ) -> Vec<[f64; KINDS.len()]> {
         let steps: Vec<Vec<(usize, usize)>> = loops
             .iter()
             .map(|walk| {
@@ -159,19 +164,21 @@ impl LoopKinds for Kinds {
             })
             .collect();
         let Ok(logits) = self.network.kinds(&self.encoded, &steps) else {
-            return vec![(SurfaceKind::Other, 0.0); loops.len()];
+            return vec![[1.0 / KINDS.len() as f64; KINDS.len()]; loops.len()];
         };
-        logits.iter().map(|row| most_likely(row)).collect()
+        logits.iter().map(|row| probabilities(row)).collect()
     }
 }
 
-/// The kind of the largest logit and its probability.
-fn most_likely(logits: &[f32]) -> (SurfaceKind, f64) {
+/// Probabilities of what has these logits.
+fn probabilities(logits: &[f32]) -> [f64; KINDS.len()] {
     let largest = logits.iter().copied().fold(f32::NEG_INFINITY, f32::max);
-    let sum: f64 = logits.iter().map(|&x| f64::from(x - largest).exp()).sum();
-    let place = logits.iter().position(|&x| x == largest);
-    let kind = place.and_then(|k| KINDS.get(k)).copied();
-    (kind.unwrap_or(SurfaceKind::Other), 1.0 / sum)
+    let mut shares = [0.0; KINDS.len()];
+    for (share, &x) in shares.iter_mut().zip(logits) {
+        *share = f64::from(x - largest).exp();
+    }
+    let sum: f64 = shares.iter().sum();
+    shares.map(|x| x / sum)
 }
 
 #[cfg(test)]

@@ -1,0 +1,182 @@
+//! What kind of surface each loop looks as if it bounded, before and after grouping.
+//!
+//! The two loops of a whole circle that shares no vertex look alike, so nothing can tell which of
+//! them bounds the plane and which the cylinder. Grouping takes both for plane, and what it makes
+//! of them says which one is not.
+
+use super::group::Grouping;
+use super::shards::KINDS;
+use super::{LoopKinds, Triples};
+use crate::drawing::{CoEdge, Curve2, Drawing, Graph, SurfaceKind};
+use crate::identify::kinds::kinds_of;
+
+/// Least probability at which a whole circle may bound a plane: an outline of a ball does not.
+const FLAT: f64 = 0.1;
+
+/// The same, if its other loop is known to bound something else: of two kinds one is the plane.
+const FLAT_BESIDE: f64 = 0.25;
+
+/// What is added to probabilities before they are multiplied, so that none forbids a kind.
+const DOUBT: f64 = 0.02;
+
+type Shares = [f64; KINDS.len()];
+
+/// How the loops of a rotation system look.
+pub(super) struct Looks {
+    /// Kinds for grouping.
+    pub(super) kinds: Vec<SurfaceKind>,
+    /// Probabilities, where a model tells them.
+    shares: Vec<Shares>,
+    /// The other loop of a whole circle whose kinds are not known apart.
+    twin: Vec<Option<usize>>,
+}
+
+impl Looks {
+    /// The looks of loops; `told` is the model's opinion.
+    pub(super) fn new(
+        drawing: &Drawing,
+        graph: &Graph,
+        triples: &Triples,
+        walks: &[Vec<CoEdge>],
+        told: Option<&dyn LoopKinds>,
+    ) -> Self {
+        let Some(told) = told else {
+            let walks: Vec<&[CoEdge]> = walks.iter().map(Vec::as_slice).collect();
+            return Self {
+                kinds: kinds_of(drawing, &walks),
+                shares: Vec::new(),
+                twin: vec![None; walks.len()],
+            };
+        };
+        let shares = told.kinds(graph, triples, walks);
+        let flat = |s: &Shares| {
+            let place = KINDS.iter().position(|k| *k == SurfaceKind::Plane);
+            place.map_or(0.0, |p| s[p])
+        };
+        let twin: Vec<Option<usize>> = walks
+            .iter()
+            .enumerate()
+            .map(|(i, walk)| {
+                let &[only] = walk.as_slice() else {
+                    return None;
+                };
+                let circle = matches!(drawing.edges[only.edge()].curve, Curve2::Ellipse(_));
+                let other = walks.iter().position(|w| *w == [only.mate()])?;
+                (circle && flat(&shares[i]) >= FLAT).then_some(other)
+            })
+            .collect();
+        let kinds = shares
+            .iter()
+            .zip(&twin)
+            .map(|(s, twin)| match twin {
+                Some(_) => SurfaceKind::Plane,
+                None => likeliest(&[s], &[]),
+            })
+            .collect();
+        Self {
+            kinds,
+            shares,
+            twin,
+        }
+    }
+
+    /// The kind of each face that a grouping makes of the loops.
+    pub(super) fn of_faces(&self, grouping: &Grouping) -> Vec<SurfaceKind> {
+        let mut face_of = vec![0; self.kinds.len()];
+        for (f, list) in grouping.faces.iter().enumerate() {
+            list.iter().for_each(|&i| face_of[i] = f);
+        }
+        let alone = |i: usize| grouping.faces[face_of[i]].len() == 1;
+        let of = |(f, list): (usize, &Vec<usize>)| {
+            let own = self.kinds[list[0]];
+            if grouping.round[f] {
+                return self.round(list);
+            }
+            let (&[only], Some(twin)) = (list.as_slice(), self.twin[list[0]]) else {
+                return own;
+            };
+            let plane = KINDS.iter().position(|k| *k == SurfaceKind::Plane);
+            let flat = plane.map_or(0.0, |p| self.shares[only][p]);
+            let curved = if alone(twin) {
+                // A disc has no thickness: one of the two is a cap.
+                only > twin
+            } else {
+                !grouping.round[face_of[twin]] || flat < FLAT_BESIDE
+            };
+            match curved {
+                // No cylinder ends in one circle.
+                true => likeliest(
+                    &[&self.shares[only]],
+                    &[SurfaceKind::Plane, SurfaceKind::Cylinder],
+                ),
+                false => SurfaceKind::Plane,
+            }
+        };
+        grouping.faces.iter().enumerate().map(of).collect()
+    }
+
+    /// Kind of a surface of revolution between loops.
+    fn round(&self, list: &[usize]) -> SurfaceKind {
+        if !self.shares.is_empty() {
+            let rows: Vec<&Shares> = list.iter().map(|&i| &self.shares[i]).collect();
+            return likeliest(&rows, &[SurfaceKind::Plane]);
+        }
+        // Two circles with nothing drawn between them: of what they bound a cone is likeliest.
+        let kinds = list.iter().map(|&i| self.kinds[i]);
+        let curved = |k: &SurfaceKind| *k != SurfaceKind::Plane;
+        kinds.filter(curved).min().unwrap_or(SurfaceKind::Cone)
+    }
+}
+
+/// The kind that all rows agree on best, but for some.
+fn likeliest(rows: &[&Shares], without: &[SurfaceKind]) -> SurfaceKind {
+    let support = |k: usize| rows.iter().map(|r| (r[k] + DOUBT).ln()).sum::<f64>();
+    let kinds = KINDS.iter().enumerate();
+    kinds
+        .filter(|(_, kind)| !without.contains(kind))
+        .max_by(|a, b| support(a.0).total_cmp(&support(b.0)))
+        .map_or(SurfaceKind::Other, |(_, kind)| *kind)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn shares(list: &[(SurfaceKind, f64)]) -> Shares {
+        KINDS.map(|k| list.iter().find(|l| l.0 == k).map_or(0.0, |l| l.1))
+    }
+
+    fn grouping(faces: &[&[usize]], round: &[bool]) -> Grouping {
+        Grouping {
+            faces: faces.iter().map(|f| f.to_vec()).collect(),
+            sureness: vec![1.0; faces.len()],
+            round: round.to_vec(),
+            reversed: vec![false; faces.iter().map(|f| f.len()).sum()],
+            score: 0.0,
+        }
+    }
+
+    /// A pin: two circles, each with two loops that look alike.
+    #[test]
+    fn what_is_left_of_a_pin_are_its_ends() {
+        use SurfaceKind::{Cylinder, Plane, Sphere};
+        let end = shares(&[(Plane, 0.4), (Cylinder, 0.6)]);
+        let looks = Looks {
+            kinds: vec![Plane; 4],
+            shares: vec![end; 4],
+            twin: vec![Some(1), Some(0), Some(3), Some(2)],
+        };
+        let pin = grouping(&[&[0, 2], &[1], &[3]], &[true, false, false]);
+        assert_eq!(looks.of_faces(&pin), [Cylinder, Plane, Plane]);
+        // With a dome instead of one end, a plane is too unlikely.
+        let dome = shares(&[(Plane, 0.15), (Cylinder, 0.45), (Sphere, 0.4)]);
+        let looks = Looks {
+            shares: vec![end, end, dome, dome],
+            ..looks
+        };
+        assert_eq!(looks.of_faces(&pin)[2], Sphere);
+        // A dimple in a plane: its circle's other loop is in the plane.
+        let dimple = grouping(&[&[0, 2], &[1], &[3]], &[false; 3]);
+        assert_ne!(looks.of_faces(&dimple)[2], Plane);
+    }
+}
