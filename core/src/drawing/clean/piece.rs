@@ -230,8 +230,7 @@ impl Piece {
             Curve2::Polyline => {
                 let n = (self.points.len() - 1) as f64;
                 // A point that all but coincides with the cut would leave a span without direction.
-                let inside =
-                    |i: &usize| u0 * n + SHORT < *i as f64 && (*i as f64) + SHORT < u1 * n;
+                let inside = |i: &usize| u0 * n + SHORT < *i as f64 && (*i as f64) + SHORT < u1 * n;
                 let mut points = vec![self.point(u0)];
                 points.extend(
                     (0..self.points.len())
