@@ -1,9 +1,11 @@
 """``python -m faceformer_training.faceformer.convert AUTHORS.ckpt OUT.safetensors`` converts a
-checkpoint of the authors' released program (PyTorch Lightning, github.com/manycore-research/faceformer).
+checkpoint of the authors' released program (PyTorch Lightning; the public repository
+manycore-research/faceformer).
 
 ``faceformer eval --engine faceformer --model OUT.safetensors --non-causal`` then runs it as that
-program does. What their networks are, and ours with them: co-edges as drawn, a solid's half diagonal
-being 1, and the loops after the first walked from their lowest co-edges.
+program does. Their networks see coordinates as drawn, a solid's half diagonal being 1, and have the
+loops after the first walked from their lowest co-edges; the description beside the weights says
+so.
 """
 
 from __future__ import annotations
@@ -180,8 +182,10 @@ def main() -> None:
         )
     except ValueError as error:
         raise SystemExit(f"{parser.prog}: {error}") from None
-    print(f"{config.variant}: width {config.width}, {config.encoder_layers} + "
-          f"{config.decoder_layers} layers, {config.inputs} tokens, {config.steps} steps")
+    print(
+        f"{config.variant}: width {config.width}, {config.encoder_layers} + "
+        f"{config.decoder_layers} layers, {config.inputs} tokens, {config.steps} steps"
+    )
 
 
 if __name__ == "__main__":

@@ -51,9 +51,7 @@ def greedy(model: PointerModel, points: torch.Tensor, causal: bool) -> list[Deco
         chances = logits.log_softmax(-1)
         top = chances.topk(2, -1)
         going_on = []
-        for d, values, tokens in zip(
-            alive, top.values.tolist(), top.indices.tolist(), strict=True
-        ):
+        for d, values, tokens in zip(alive, top.values.tolist(), top.indices.tolist(), strict=True):
             d.tokens.append(tokens[0])
             d.log_probability += values[0]
             d.margin = min(d.margin, values[0] - values[1])

@@ -1,9 +1,9 @@
 """``python -m faceformer_training.faceformer.fixture SHARD OUT`` writes the parity fixture.
 
-OUT gets a small network of random weights for each variant, and ``expected.safetensors`` with what it
-makes of the shard's drawings: every ``STRIDE``-th row of the memory, and the sequences that it decodes
-greedily, with and without the causal mask. The test core/tests/faceformer_parity.rs compares the
-program's own networks with them.
+OUT gets a small network of random weights for each variant, and ``expected.safetensors`` with what
+it makes of the shard's drawings: every ``STRIDE``-th row of the memory, and the sequences that it
+decodes greedily, with and without the causal mask. The test core/tests/faceformer_parity.rs
+compares the program's own networks with them.
 """
 
 from __future__ import annotations

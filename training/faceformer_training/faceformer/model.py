@@ -1,13 +1,13 @@
-"""The network of the paper's three models: an encoder over tokens and a decoder that points at them.
+"""The network of the paper's three models: an encoder over tokens, a decoder that points at them.
 
 Pre-norm Transformer layers (Xiong et al. 2020, "On Layer Normalization in the Transformer
-Architecture") with ReLU; learned positions are added to the queries and keys of every attention, not
-to the values (Carion et al. 2020, "End-to-End Object Detection with Transformers"). A decoder's token
-is that token's embedding after the encoder, and the logit of what follows is a dot product with these
-embeddings (Vinyals et al. 2015, "Pointer Networks"; paper, section 4.1).
+Architecture") with ReLU; learned positions are added to the queries and keys of every attention,
+not to the values (Carion et al. 2020, "End-to-End Object Detection with Transformers"). A decoder's
+token is that token's embedding after the encoder, and the logit of what follows is a dot product
+with these embeddings (Vinyals et al. 2015, "Pointer Networks"; paper, section 4.1).
 
-core/src/identify/faceformer/network.rs is the same in candle; names of weights are the same in both,
-and a fixture in core/tests compares the two.
+core/src/identify/faceformer/network.rs is the same in candle; names of weights are the same in
+both, and a fixture in core/tests compares the two.
 """
 
 from __future__ import annotations

@@ -1,5 +1,4 @@
-"""``python -m faceformer_training.faceformer.train CONFIG.json [--train SHARDS...]... [--output DIR]``
-trains one of the paper's models.
+"""``python -m faceformer_training.faceformer.train CONFIG.json`` trains one of the paper's models.
 
 The configuration is that of :class:`.config.TrainConfig`; training/configs/faceformer has the three
 models at the paper's size and at a smaller one. Each ``--train`` is the shards of one epoch. The
