@@ -15,14 +15,14 @@ use crate::output::Output;
 
 /// The tables of one kind of model.
 enum Writer {
-    Rotation(Shard),
+    Rotation(Box<Shard>),
     Pointer(PointerShard),
 }
 
 impl Writer {
     fn new(tables: Tables) -> Self {
         match tables {
-            Tables::Rotation => Self::Rotation(Shard::default()),
+            Tables::Rotation => Self::Rotation(Box::default()),
             Tables::Faceformer => Self::Pointer(PointerShard::default()),
         }
     }

@@ -121,8 +121,8 @@ def test_tables_of_another_model_are_refused(shard_path, tmp_path):
 def test_points_are_ordered_and_loops_are_walks(shard):
     for i in range(len(shard)):
         points = shard.points(i, "faceformer").astype(float)
-        first = [tuple(p) for p in points[:, 0].tolist()]
-        assert first == sorted(first)
+        # By x alone: rounded to half precision, two of them may be equal that were not.
+        assert (np.diff(points[:, 0, 0]) >= 0).all()
         half = np.concatenate([points.min((0, 1)), points.max((0, 1))]).reshape(2, 2)
         assert np.linalg.norm(half[1] - half[0]) / 2 == pytest.approx(1, abs=0.02)
         places = []
