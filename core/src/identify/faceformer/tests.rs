@@ -76,7 +76,7 @@ fn damaged_models_are_refused() {
     let weights = std::fs::read(fixture("faceformer.safetensors")).unwrap();
     let text = std::fs::read_to_string(fixture("faceformer.json")).unwrap();
     assert!(Network::load(weights.clone(), &text).is_ok());
-    let other = text.replace("\"width\": 16", "\"width\": 18");
+    let other = text.replace("\"heads\": 2", "\"heads\": 3");
     assert_eq!(
         Network::load(weights.clone(), &other).unwrap_err(),
         ModelError::Version

@@ -43,15 +43,15 @@ impl<'a> Walks<'a> {
     /// An open walk goes on with a co-edge that leaves its end; a closed one ends the face or begins
     /// another loop. A face uses no edge twice, and no co-edge is in two faces. Where sequences hold
     /// further loops sorted, those are no walks: there only a face that is closed as a whole may end.
-    /// Nothing is forbidden where nothing would be left, nor in sequences of edges, which are no
-    /// walks at all.
+    /// Where nothing is left, a face by itself is given up, and in a sequence of all faces the next
+    /// one begins. Sequences of edges are no walks, so there nothing is forbidden.
     pub(super) fn forbid(&self, tokens: &[u32], logits: &mut [f32]) {
         if self.variant == Variant::Seq2seq {
             return;
         }
-        let allowed = self.allowed(tokens);
-        if !allowed.iter().any(|&a| a) {
-            return;
+        let mut allowed = self.allowed(tokens);
+        if self.variant == Variant::Seq2seqCoedge && !allowed.contains(&true) {
+            allowed[Variant::SEP as usize..TOKENS].fill(true);
         }
         for (logit, allowed) in logits.iter_mut().zip(allowed) {
             if !allowed {
