@@ -91,7 +91,7 @@ fn damaged_models_are_refused() {
 #[test]
 fn it_can_be_cancelled() {
     let engine = FaceformerEngine::new(network(), DecodeOptions::default());
-    let stop = |_, share| share < 0.2;
+    let stop = |_, share| share < 0.05;
     let found = engine.identify(&testing::cube(), Progress::new(&stop));
     assert_eq!(found, Err(Error::Cancelled));
 }
