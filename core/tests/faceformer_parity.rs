@@ -1,17 +1,16 @@
-//! The paper's networks in candle decode what they decode in PyTorch.
+//! The paper's networks in candle see drawings and sequences as they do in PyTorch.
 //!
 //! The fixture is made by `python -m faceformer_training.faceformer.fixture` from the tables of the
-//! first 12 drawings of the corpus, see training/README.md.
+//! first 4 drawings of the corpus, see training/README.md.
 
 use std::path::{Path, PathBuf};
 
-use faceformer::Error;
 use faceformer::drawing::dataset::Drawings;
 use faceformer::identify::faceformer::inputs::Inputs;
-use faceformer::identify::faceformer::{Network, TOKENS, Variant, search};
+use faceformer::identify::faceformer::{Hypothesis, Memory, Network, Variant};
 use safetensors::SafeTensors;
 
-const DRAWINGS: usize = 12;
+const DRAWINGS: usize = 4;
 const STRIDE: usize = 7;
 const TOLERANCE: f32 = 1e-4;
 
@@ -39,9 +38,9 @@ fn compare(name: &str, causal: bool) {
     let expected = SafeTensors::deserialize(&bytes).unwrap();
     let mode = if causal { "causal" } else { "non-causal" };
     let mut memory_values = floats(&expected, &format!("{name}.memory")).into_iter();
-    let mut tokens = ints(&expected, &format!("{name}.{mode}.tokens")).into_iter();
-    let mut lengths = ints(&expected, &format!("{name}.{mode}.lengths")).into_iter();
-    let mut sums = floats(&expected, &format!("{name}.{mode}.log_probability")).into_iter();
+    let mut tokens = ints(&expected, &format!("{name}.tokens")).into_iter();
+    let mut lengths = ints(&expected, &format!("{name}.lengths")).into_iter();
+    let mut sums = floats(&expected, &format!("{name}.{mode}")).into_iter();
     let config = *network.config();
     let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/corpus/sample.jsonl.zst");
     for drawing in Drawings::open(corpus).unwrap().take(DRAWINGS) {
@@ -58,32 +57,59 @@ fn compare(name: &str, causal: bool) {
                 );
             }
         }
-        let starts: Vec<u32> = match config.variant {
-            Variant::Faceformer => (0..inputs.coedges.len())
-                .map(|i| (i + TOKENS) as u32)
-                .collect(),
-            _ => vec![Variant::SOS],
+        let count = match config.variant {
+            Variant::Faceformer => inputs.coedges.len().div_ceil(STRIDE),
+            _ => 1,
         };
-        let found = search(
-            &mut network.decode(&memory, causal),
-            config.variant,
-            &starts,
-            config.steps,
-            1,
-            |_, _| (),
-            |_| Ok::<(), Error>(()),
-        );
-        for found in found.unwrap().unwrap() {
-            let length = lengths.next().unwrap() as usize;
-            let same: Vec<u32> = tokens.by_ref().take(length).collect();
-            assert_eq!(found.tokens, same, "{}", drawing.id);
-            let sum: f32 = found.log_probabilities.iter().sum();
-            let off = (sum - sums.next().unwrap()).abs();
+        let sequences: Vec<Vec<u32>> = (0..count)
+            .map(|_| {
+                let length = lengths.next().unwrap() as usize;
+                tokens.by_ref().take(length).collect()
+            })
+            .collect();
+        let found = log_probabilities(&network, &memory, causal, &sequences);
+        for found in found {
+            let off = (found - sums.next().unwrap()).abs();
             assert!(off < 1e-3, "{}: a sequence is off by {off}", drawing.id);
         }
     }
     assert!(memory_values.next().is_none() && tokens.next().is_none());
     assert!(lengths.next().is_none() && sums.next().is_none());
+}
+
+/// How likely the network finds sequences, all at once; those that end are dropped on the way.
+fn log_probabilities(
+    network: &Network,
+    memory: &Memory,
+    causal: bool,
+    sequences: &[Vec<u32>],
+) -> Vec<f32> {
+    let variant = network.config().variant;
+    let mut decoding = network.decode(memory, causal);
+    let mut sums = vec![0.0; sequences.len()];
+    let mut owners: Vec<usize> = (0..sequences.len()).collect();
+    let mut rows: Vec<Hypothesis> = sequences.iter().map(|s| Hypothesis::new(s[0])).collect();
+    while !rows.is_empty() {
+        let logits = decoding.step(&mut rows).unwrap();
+        let mut next = Vec::new();
+        let mut still = Vec::new();
+        for ((mut row, owner), logits) in rows.into_iter().zip(owners).zip(logits) {
+            let token = sequences[owner][row.tokens.len()];
+            let all = logits.iter().enumerate();
+            let sum: f64 = all
+                .filter(|(t, _)| variant.follows(*t))
+                .map(|(_, &x)| f64::from(x).exp())
+                .sum();
+            sums[owner] += logits[token as usize] - sum.ln() as f32;
+            row.tokens.push(token);
+            if row.tokens.len() < sequences[owner].len() {
+                next.push(row);
+                still.push(owner);
+            }
+        }
+        (rows, owners) = (next, still);
+    }
+    sums
 }
 
 #[test]

@@ -195,9 +195,9 @@ mod tests {
             assert!((p.to_f32() - q.to_f32()).abs() < 1e-3);
         }
         let drawn = edge_points(&drawing, Frame::Drawn, 9);
-        for k in 0..9 {
+        for (k, [x, y]) in drawn.iter().take(9).enumerate() {
             let p = a.lerp(b, k as f64 / 8.0);
-            let off = DVec2::new(drawn[k][0].to_f64(), drawn[k][1].to_f64()) - p;
+            let off = DVec2::new(x.to_f64(), y.to_f64()) - p;
             assert!(off.length() < 1e-3, "{k}: {off}");
         }
     }
