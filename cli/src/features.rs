@@ -16,14 +16,14 @@ use crate::output::Output;
 /// The tables of one kind of model.
 enum Writer {
     Rotation(Box<Shard>),
-    Pointer(PointerShard),
+    Pointer(Box<PointerShard>),
 }
 
 impl Writer {
     fn new(tables: Tables) -> Self {
         match tables {
             Tables::Rotation => Self::Rotation(Box::default()),
-            Tables::Faceformer => Self::Pointer(PointerShard::default()),
+            Tables::Faceformer => Self::Pointer(Box::default()),
         }
     }
 

@@ -192,7 +192,7 @@ def train(config: TrainConfig, resume: bool, stop: int | None = None) -> Path:
             if curve is not None:
                 row = {"step": state["step"], "epoch": epoch, "drawings": state["drawings"]}
                 row["seconds"] = round(time.monotonic() - started, 1)
-                row |= {f"train_{name}": round(float(v), 5) for name, v in parts.items()}
+                row |= {f"train_{name}": round(v.item(), 5) for name, v in parts.items()}
                 measured = validate(average, held_out, fabric) if held_out else {}
                 curve.add(row | {name: round(value, 5) for name, value in measured.items()})
             fabric.save(last, state | {"config": dataclasses.asdict(network)})
