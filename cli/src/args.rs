@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use faceformer::identify::EngineKind;
+use faceformer::identify::faceformer::DecodeOptions;
 
 use crate::render::Labels;
 
@@ -36,14 +37,15 @@ pub(crate) enum Command {
     Eval(EvalArgs),
     /// Draw a picture of a drawing and its faces
     Render(RenderArgs),
-    /// Write the tables that the rotation engine's model is trained on
+    /// Write the tables that an engine's model is trained on
     Features(FeaturesArgs),
 }
 
 /// Where the faces come from.
 #[derive(Debug, Args)]
 pub(crate) struct FacesArgs {
-    /// Engine that finds the faces [default: rotation] [rotation, varley, shortest]
+    /// Engine that finds the faces [default: rotation] [rotation, varley, shortest, faceformer,
+    /// seq2seq-coedge, seq2seq]
     #[arg(long, value_name = "E", conflicts_with = "faces")]
     pub(crate) engine: Option<EngineKind>,
     #[command(flatten)]
@@ -56,10 +58,40 @@ pub(crate) struct FacesArgs {
 /// Which trained model the engine uses.
 #[derive(Debug, Args)]
 pub(crate) struct ModelArgs {
-    /// Trained model for the engine rotation (.safetensors, its .json beside it), or "none" for the
-    /// hand-made scores [default: $FACEFORMER_MODEL, else the program's own]
+    /// Trained model (.safetensors, its .json beside it) for the engine; for rotation also "none",
+    /// the hand-made scores [default: $FACEFORMER_MODEL, else rotation's own]
     #[arg(long, value_name = "FILE")]
     pub(crate) model: Option<String>,
+    /// faceformer, seq2seq...: keep K sequences from each start; 1 is greedy, as in the paper
+    #[arg(long, value_name = "K", default_value_t = 1,
+        value_parser = clap::value_parser!(u16).range(1..=64))]
+    pub(crate) beam: u16,
+    /// faceformer, seq2seq-coedge: allow only co-edges that continue the walk
+    #[arg(long)]
+    pub(crate) walks_only: bool,
+    /// faceformer, seq2seq...: decode without the causal mask, as the authors' program does
+    #[arg(long)]
+    pub(crate) non_causal: bool,
+}
+
+impl ModelArgs {
+    /// How sequences are decoded.
+    pub(crate) fn decoding(&self) -> DecodeOptions {
+        DecodeOptions {
+            causal: !self.non_causal,
+            beam: self.beam.into(),
+            walks_only: self.walks_only,
+        }
+    }
+}
+
+/// Which engine's model tables are for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Tables {
+    /// The rotation engine.
+    Rotation,
+    /// The engines faceformer, seq2seq-coedge and seq2seq.
+    Faceformer,
 }
 
 /// Arguments of `check`.
@@ -77,7 +109,7 @@ pub(crate) struct CheckArgs {
 pub(crate) struct IdentifyArgs {
     /// The drawing
     pub(crate) drawing: String,
-    /// Engine that finds the faces [rotation, varley, shortest]
+    /// Engine that finds the faces [rotation, varley, shortest, faceformer, seq2seq-coedge, seq2seq]
     #[arg(long, value_name = "E", default_value_t)]
     pub(crate) engine: EngineKind,
     #[command(flatten)]
@@ -189,6 +221,9 @@ pub(crate) struct FeaturesArgs {
     /// File for the tables
     #[arg(short, long, value_name = "OUT.safetensors")]
     pub(crate) output: PathBuf,
+    /// Engine whose model they are for
+    #[arg(long = "for", value_enum, default_value_t = Tables::Rotation)]
+    pub(crate) tables: Tables,
     /// Take the first N drawings only
     #[arg(long, value_name = "N")]
     pub(crate) limit: Option<usize>,

@@ -32,7 +32,8 @@ impl FacesFrom {
 
     /// The engine of that kind, with its model.
     pub(crate) fn engine(kind: EngineKind, model: &ModelArgs) -> Self {
-        Self::Engine(identify::engine_with_model(kind, model.model.as_deref()))
+        let name = model.model.as_deref();
+        Self::Engine(identify::engine_with(kind, name, model.decoding()))
     }
 
     /// The faces of a drawing.

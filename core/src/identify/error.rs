@@ -53,6 +53,35 @@ pub enum IdentifyError {
         /// What is wrong, naming the edge.
         what: String,
     },
+    /// The engine needs a trained model, and none is named.
+    #[error(
+        "the engine {engine} needs a trained model: name its file with --model, the option \"model\" or \
+         the environment variable FACEFORMER_MODEL"
+    )]
+    NoModel {
+        /// Engine name.
+        engine: &'static str,
+    },
+    /// The trained model cannot be used.
+    #[error("the engine {engine} cannot use its model: {what}")]
+    Model {
+        /// Engine name.
+        engine: &'static str,
+        /// Why.
+        what: String,
+    },
+    /// The drawing has more edges than the model has learned positions for.
+    #[error(
+        "the drawing has {edges} edges; the model of the engine {engine} takes at most {limit}"
+    )]
+    TooManyEdges {
+        /// Engine name.
+        engine: &'static str,
+        /// Edges of the drawing.
+        edges: usize,
+        /// Most that the model takes.
+        limit: usize,
+    },
     /// No engine of that name.
     #[error("there is no engine named {0:?}; there are {names}", names = super::EngineKind::names())]
     UnknownEngine(String),

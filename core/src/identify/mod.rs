@@ -5,6 +5,7 @@
 //! a result with the truth.
 
 mod error;
+pub mod faceformer;
 mod faces;
 mod kinds;
 pub mod metrics;
@@ -17,11 +18,13 @@ mod shortest;
 #[cfg(test)]
 pub(crate) mod testing;
 mod varley;
+mod weights;
 
 pub use error::IdentifyError;
 pub use faces::{FILE, TRUTH, from_truth, read_faces};
 pub use model::{Candidate, Engine, Evidence, Face, Identification};
 pub use orient::orient;
-pub use registry::{EngineKind, engine, engine_with_model};
+pub use registry::{EngineKind, engine, engine_with, engine_with_model};
 pub use shortest::ShortestEngine;
 pub use varley::VarleyEngine;
+pub use weights::ModelError;

@@ -5,6 +5,7 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
+use super::faceformer::{DecodeOptions, FaceformerEngine, Variant};
 use super::rotation::RotationEngine;
 use super::{Engine, IdentifyError, ShortestEngine, VarleyEngine};
 
@@ -20,13 +21,31 @@ pub enum EngineKind {
     Varley,
     /// Least-cost loop through each co-edge.
     Shortest,
+    /// The paper's model: a sequence of co-edges from every co-edge. Needs a trained model.
+    Faceformer,
+    /// The paper's variant that gives all faces in one sequence of co-edges. Needs a trained model.
+    Seq2seqCoedge,
+    /// The paper's variant that gives all faces in one sequence of edges. Needs a trained model.
+    Seq2seq,
 }
 
 impl EngineKind {
     /// Every engine, the default first.
-    pub const ALL: [Self; 3] = [Self::Rotation, Self::Varley, Self::Shortest];
+    pub const ALL: [Self; 6] = [
+        Self::Rotation,
+        Self::Varley,
+        Self::Shortest,
+        Self::Faceformer,
+        Self::Seq2seqCoedge,
+        Self::Seq2seq,
+    ];
 
-    /// All names, for messages: "rotation, varley, shortest".
+    /// Whether the engine can do nothing without a trained model that the user names.
+    pub const fn needs_model(self) -> bool {
+        matches!(self, Self::Faceformer | Self::Seq2seqCoedge | Self::Seq2seq)
+    }
+
+    /// All names, for messages: "rotation, varley, shortest, ...".
     pub fn names() -> String {
         Self::ALL.map(Self::name).join(", ")
     }
@@ -37,6 +56,9 @@ impl EngineKind {
             Self::Rotation => "rotation",
             Self::Varley => "varley",
             Self::Shortest => "shortest",
+            Self::Faceformer => "faceformer",
+            Self::Seq2seqCoedge => "seq2seq-coedge",
+            Self::Seq2seq => "seq2seq",
         }
     }
 }
@@ -72,10 +94,23 @@ pub fn engine(kind: EngineKind) -> Box<dyn Engine> {
 /// The engine of that kind; those with a trained model take the one that `model` names: a file, or
 /// "none" for none at all.
 pub fn engine_with_model(kind: EngineKind, model: Option<&str>) -> Box<dyn Engine> {
+    engine_with(kind, model, DecodeOptions::default())
+}
+
+/// The same; those that decode sequences do it by `options`.
+pub fn engine_with(
+    kind: EngineKind,
+    model: Option<&str>,
+    options: DecodeOptions,
+) -> Box<dyn Engine> {
+    let pointer = |variant| Box::new(FaceformerEngine::with_model(variant, model, options));
     match kind {
         EngineKind::Shortest => Box::new(ShortestEngine::default()),
         EngineKind::Varley => Box::new(VarleyEngine),
         EngineKind::Rotation => Box::new(RotationEngine::with_model(model)),
+        EngineKind::Faceformer => pointer(Variant::Faceformer),
+        EngineKind::Seq2seqCoedge => pointer(Variant::Seq2seqCoedge),
+        EngineKind::Seq2seq => pointer(Variant::Seq2seq),
     }
 }
 

@@ -182,7 +182,8 @@ mod tests {
 
     #[test]
     fn every_engine_finds_the_six_faces_of_a_box() {
-        for engine in faceformer::identify::EngineKind::ALL {
+        let all = faceformer::identify::EngineKind::ALL;
+        for engine in all.into_iter().filter(|e| !e.needs_model()) {
             let options = format!("{{\"engine\": \"{engine}\"}}");
             let faces = Faces::identify(&drawing(), &options, 2.0).unwrap().json();
             assert_eq!(faces["faces"].as_array().unwrap().len(), 6, "{engine}");

@@ -3,7 +3,6 @@
 //! [`network`] is the network, [`file`](read) how it comes from disk, and [`ModelScorer`] what the
 //! engine uses. A process loads a model once, when it is first asked for.
 
-mod error;
 mod file;
 mod network;
 
@@ -11,7 +10,7 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-pub use error::ModelError;
+pub use crate::identify::weights::ModelError;
 pub use file::{LIMIT, load, read};
 pub use network::{Config, Encoded, Network};
 

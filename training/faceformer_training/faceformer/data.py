@@ -1,0 +1,174 @@
+"""Shards that ``faceformer features --for faceformer`` wrote, and batches of their drawings."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import queue
+import threading
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import numpy as np
+import torch
+from safetensors import safe_open
+
+from .config import FORMAT, PAD, TOKENS, ModelConfig
+from .sequences import Face, all_at_once, one_by_one, sets_at_once
+
+
+class Shard:
+    """One file of tables in memory, cut into drawings by its ``*_start`` arrays."""
+
+    def __init__(self, path: Path):
+        with safe_open(path, framework="numpy") as file:
+            metadata = file.metadata() or {}
+            expected = {"format": str(FORMAT), "tables": "faceformer"}
+            if {key: metadata.get(key) for key in expected} != expected:
+                raise ValueError(
+                    f"{path}: no tables of format {FORMAT} for faceformer; write them with "
+                    "`faceformer features --for faceformer`"
+                )
+            self.ids: list[str] = json.loads(metadata["ids"])
+            # An offset-based view of what does not exist would be empty without a word.
+            self.tables = {name: file.get_tensor(name) for name in file.keys()}  # noqa: SIM118
+        t = self.tables
+        self.sizes = np.diff(t["edge_start"].astype(np.int64))
+        # Co-edges of each face, and of each drawing the largest face.
+        faces = np.diff(t["loop_start"].astype(np.int64)[t["face_start"]])
+        self.faces = np.diff(t["faces_start"].astype(np.int64))
+        self.largest = np.maximum.reduceat(faces, t["faces_start"][:-1])
+
+    def __len__(self) -> int:
+        return len(self.ids)
+
+    def fits(self, i: int, config: ModelConfig) -> bool:
+        """Whether the network has positions for the drawing and its sequences."""
+        edges = int(self.sizes[i])
+        if config.variant == "faceformer":
+            return 2 * edges <= config.inputs and self.largest[i] <= config.steps
+        tokens = edges if config.variant == "seq2seq" else 2 * edges
+        return tokens <= config.inputs and 2 * edges + int(self.faces[i]) <= config.steps
+
+    def points(self, i: int, variant: str) -> np.ndarray:
+        """Points of the drawing's tokens, ``[tokens, points, 2]``."""
+        first, last = self.tables["edge_start"][i : i + 2]
+        own = self.tables["points"][first:last]
+        order = self.order(i, variant)
+        points = own[order >> 1]
+        turned = (order & 1) == 1
+        points[turned] = points[turned, ::-1]
+        return points
+
+    def order(self, i: int, variant: str) -> np.ndarray:
+        """Indices ``2 edge + reversed`` of the drawing's tokens, in their order."""
+        first, last = self.tables["edge_start"][i : i + 2].astype(np.int64)
+        if variant == "seq2seq":
+            return self.tables["edges"][first:last]
+        return self.tables["coedges"][2 * first : 2 * last]
+
+    def true_faces(self, i: int, variant: str) -> list[Face]:
+        """The true faces; loops hold places among the drawing's tokens."""
+        t = self.tables
+        order = self.order(i, variant)
+        place = np.empty(2 * int(self.sizes[i]), np.int64)
+        place[order] = np.arange(len(order))
+        if variant == "seq2seq":
+            place[order ^ 1] = np.arange(len(order))
+        faces: list[Face] = []
+        for f in range(*t["faces_start"][i : i + 2]):
+            starts = t["loop_start"][t["face_start"][f] : t["face_start"][f + 1] + 1]
+            loops = [
+                place[t["loop_coedges"][a:b]] for a, b in zip(starts, starts[1:], strict=False)
+            ]
+            faces.append((int(t["face_kinds"][f]), loops))
+        return faces
+
+    def sequences(self, i: int, config: ModelConfig) -> list[np.ndarray]:
+        """What is to be learned from the drawing: one sequence a start, or one in all."""
+        faces = self.true_faces(i, config.variant)
+        if config.variant == "faceformer":
+            return one_by_one(faces, config.further_loops)
+        if config.variant == "seq2seq-coedge":
+            return [all_at_once(faces, config.further_loops)]
+        return [sets_at_once(faces)]
+
+
+@dataclasses.dataclass
+class Batch:
+    """B drawings side by side, padded to N tokens, and S sequences of T + 1 tokens of each."""
+
+    points: torch.Tensor  # [B, N, 2 points]
+    absent: torch.Tensor  # [B, N], true where there is no token
+    sequences: torch.Tensor  # [B, S, T + 1], PAD where there is none
+
+    def to(self, device: torch.device) -> Batch:
+        fields = dataclasses.fields(self)
+        moved = {f.name: getattr(self, f.name).to(device, non_blocking=True) for f in fields}
+        return Batch(**moved)
+
+
+Place = tuple[Shard, int]
+
+
+def collate(
+    places: Sequence[Place], config: ModelConfig, starts: int, random: np.random.Generator
+) -> Batch:
+    """Puts drawings into one batch; with ``starts`` at most that many sequences of each."""
+    points = [shard.points(i, config.variant) for shard, i in places]
+    chosen: list[list[np.ndarray]] = []
+    for shard, i in places:
+        sequences = shard.sequences(i, config)
+        if 0 < starts < len(sequences):
+            picks = random.choice(len(sequences), starts, replace=False)
+            sequences = [sequences[k] for k in picks]
+        chosen.append(sequences)
+    tokens = max(len(p) for p in points)
+    length = max(len(s) for sequences in chosen for s in sequences)
+    most = max(len(sequences) for sequences in chosen)
+    padded = np.zeros((len(places), tokens, 2 * points[0].shape[1]), np.float32)
+    absent = np.ones((len(places), tokens), bool)
+    targets = np.full((len(places), most, length), PAD, np.int64)
+    for b, (own, sequences) in enumerate(zip(points, chosen, strict=True)):
+        padded[b, : len(own)] = own.reshape(len(own), -1)
+        absent[b, : len(own)] = False
+        for s, sequence in enumerate(sequences):
+            targets[b, s, : len(sequence)] = sequence
+    # A sequence that is none begins with a type, as good as any token: it has no target.
+    targets[targets[..., 0] == PAD, 0] = TOKENS - 1
+    return Batch(*(torch.from_numpy(x) for x in (padded, absent, targets)))
+
+
+def prefetched(items: Iterator, ahead: int = 4) -> Iterator:
+    """The same items, made in a thread a few ahead of their use."""
+    waiting: queue.Queue = queue.Queue(ahead)
+    stop, end = threading.Event(), object()
+
+    def fill() -> None:
+        last: object = end
+        try:
+            for item in items:
+                while not stop.is_set():
+                    try:
+                        waiting.put((item, None), timeout=0.2)
+                        break
+                    except queue.Full:
+                        continue
+                if stop.is_set():
+                    return
+        except BaseException as error:
+            last = error
+        waiting.put((None, last))
+
+    thread = threading.Thread(target=fill, daemon=True)
+    thread.start()
+    try:
+        while True:
+            item, last = waiting.get()
+            if last is end:
+                return
+            if last is not None:
+                raise last
+            yield item
+    finally:
+        stop.set()
