@@ -177,6 +177,7 @@ impl Engine for FaceformerEngine {
             faces,
             alternatives: Vec::new(),
             notices: Vec::new(),
+            vertices: Vec::new(),
         })
     }
 }
