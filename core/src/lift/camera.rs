@@ -76,6 +76,24 @@ impl Camera {
         }
     }
 
+    /// Height on a scale on which a part of a drawing that moves along the lines of sight shifts:
+    /// itself in a parallel projection, `f ln(h / f)` in a central one, where such a part grows.
+    pub(crate) fn level(&self, height: f64) -> f64 {
+        match *self {
+            Self::Parallel => height,
+            Self::Central { focal, .. } => focal * (height / focal).max(f64::MIN_POSITIVE).ln(),
+        }
+    }
+
+    /// Difference of level between two points on a line along `l`, drawn at `u` and `v`.
+    pub(crate) fn climb(&self, l: DVec3, u: DVec2, v: DVec2) -> f64 {
+        let Relation { to, from, rise } = self.along(l, u, v);
+        match *self {
+            Self::Parallel => rise,
+            Self::Central { focal, .. } => focal * (from / to).max(f64::MIN_POSITIVE).ln(),
+        }
+    }
+
     /// How a point drawn at `p` at the unit height moves in the drawing for a unit step along `l`;
     /// that height is f in a central projection, where it draws lengths as they are.
     pub(crate) fn drawn(&self, l: DVec3, p: DVec2) -> DVec2 {

@@ -5,6 +5,7 @@ use super::rows::{Tag, Unknowns};
 use super::sheet::Sheet;
 use super::system::{NullSpace, System};
 use super::{Camera, LiftError};
+use crate::drawing::Graph;
 
 /// Vertices that are tried: each try that fails shows a part that holds less than half of all.
 const TRIES: usize = 6;
@@ -58,6 +59,31 @@ pub(super) fn choose(
     let null_space = system.null_space()?;
     fix_mean(focal, &null_space, system, tried.len());
     Ok(null_space)
+}
+
+/// Gives the height of one vertex of every part of the drawing that has none, and returns what is
+/// open then: loose parts of a perspective drawing have a scale each.
+pub(super) fn choose_parts(
+    sheet: &Sheet<'_>,
+    system: &mut System<Tag>,
+    null_space: NullSpace,
+) -> Result<NullSpace, LiftError> {
+    let Camera::Central { focal, .. } = *sheet.camera() else {
+        return Ok(null_space);
+    };
+    let graph = Graph::new(sheet.drawing);
+    let mut done = vec![false; graph.component_count()];
+    let vertices = 0..sheet.drawing.vertices.len();
+    for v in vertices.clone().filter(|&v| !null_space.is_free(v)) {
+        done[graph.component(v)] = true;
+    }
+    let weight = sheet.directions.precision.recip();
+    for v in vertices {
+        if !std::mem::replace(&mut done[graph.component(v)], true) {
+            system.push([(v, 1.0)], focal, weight, Tag::Gauge);
+        }
+    }
+    system.null_space()
 }
 
 /// In the L1 norm the mean height is given instead of that of one vertex, which may be where the

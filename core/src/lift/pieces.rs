@@ -3,12 +3,12 @@
 
 use glam::{DVec2, DVec3};
 
-use super::LiftError;
 use super::circle::DrawnCircle;
 use super::directions::Directions;
 use super::sheet::Sheet;
 use super::solve::{self, Solved};
-use crate::drawing::{Drawing, Projection};
+use super::{Camera, LiftError};
+use crate::drawing::Drawing;
 use crate::identify::Face;
 
 /// A lifted drawing whose parts may still move in depth against each other.
@@ -19,36 +19,41 @@ pub(crate) struct Pieces {
     /// Axes in the camera frame, as in [`Directions::axes`].
     pub(crate) axes: Vec<DVec3>,
     circles: Vec<Option<(usize, DrawnCircle)>>,
+    pub(crate) camera: Camera,
 }
 
-/// A plane `z = -(a x + b y + c)`.
+/// A plane of the heights `h = -(a x + b y + c)`; see [`Camera`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Tilt {
     /// Slope along x, negative.
     pub(crate) a: f64,
     /// Slope along y, negative.
     pub(crate) b: f64,
-    /// Depth of the origin, negative.
+    /// Height of the origin, negative.
     pub(crate) c: f64,
+    pub(crate) camera: Camera,
 }
 
 impl Tilt {
-    /// Depth of a drawn point.
-    pub(crate) fn depth(&self, p: DVec2) -> f64 {
-        -(self.a * p.x + self.b * p.y + self.c)
+    /// [Level](Camera::level) of a drawn point.
+    pub(crate) fn level(&self, p: DVec2) -> f64 {
+        self.camera.level(-(self.a * p.x + self.b * p.y + self.c))
+    }
+
+    /// Unit normal; of which side is left open.
+    pub(crate) fn normal(&self) -> DVec3 {
+        let normal = self.camera.normal([self.a, self.b, self.c], DVec2::ZERO);
+        normal.normalize_or_zero()
     }
 }
 
 impl Pieces {
-    /// Lifts an orthographic drawing with the given faces, of all readings of its directions the
-    /// one that contradicts the faces least.
+    /// Lifts a drawing with the given faces, of all readings of its directions the one that
+    /// contradicts the faces least.
     ///
     /// # Errors
     /// As [`lift`](super::lift()), but depths may stay open.
     pub(crate) fn new(drawing: &Drawing, faces: &[Face]) -> Result<Self, LiftError> {
-        if matches!(drawing.projection, Projection::Perspective { .. }) {
-            return Err(LiftError::NoDirections("perspective".into()));
-        }
         let mut best: Option<(usize, Self)> = None;
         let mut refusal = None;
         for reading in Directions::candidates(drawing)? {
@@ -79,6 +84,7 @@ impl Pieces {
             middles: sheet.middles.clone(),
             axes: sheet.directions.axes.iter().map(|a| a.direction).collect(),
             circles: sheet.circles.clone(),
+            camera: *sheet.camera(),
         }
     }
 
@@ -87,8 +93,8 @@ impl Pieces {
         self.circles[edge]
     }
 
-    /// Depth of a vertex.
-    pub(crate) fn depth(&self, vertex: usize) -> f64 {
+    /// Height of a vertex.
+    pub(crate) fn height(&self, vertex: usize) -> f64 {
         self.solved.height(vertex)
     }
 
@@ -100,6 +106,7 @@ impl Pieces {
             a,
             b,
             c: c - a * middle.x - b * middle.y,
+            camera: self.camera,
         })
     }
 }

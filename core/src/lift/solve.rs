@@ -115,6 +115,9 @@ fn solve_rows(sheet: &Sheet<'_>, tie_parts: bool) -> Result<Solved, LiftError> {
     let unknowns = Unknowns::new(sheet);
     let mut system = rows::certain(sheet, &unknowns);
     let mut null_space = gauge::choose(sheet, &unknowns, &mut system)?;
+    if !tie_parts {
+        null_space = gauge::choose_parts(sheet, &mut system, null_space)?;
+    }
     for level in LEVELS {
         if loose(sheet, &unknowns, &null_space).is_empty() {
             break;

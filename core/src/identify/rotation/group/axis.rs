@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use crate::drawing::{Curve2, Drawing};
 use crate::identify::Face;
-use crate::lift::{Camera, Pieces, circle_through};
+use crate::lift::{Pieces, circle_through};
 
 /// The line that a loop's circles are around.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -13,7 +13,7 @@ pub(super) struct AxisLine {
     pub(super) axis: usize,
     /// Where a point of it is drawn.
     pub(super) at: DVec2,
-    /// Depth of that point in its part.
+    /// Level of that point in its part.
     pub(super) depth: f64,
 }
 
@@ -48,13 +48,10 @@ pub(super) fn axis_line(drawing: &Drawing, pieces: &Pieces, face: &Face) -> Opti
     let circles = edges().filter_map(|e| pieces.circle(e).map(|c| (e, c)));
     let best = circles.min_by(|a, b| a.1.1.gain.total_cmp(&b.1.1.gain));
     if let Some((e, (axis, circle))) = best {
-        let v = drawing.edges[e].v[0];
-        let d = circle.center - drawing.vertices[v];
-        let n = pieces.axes[axis];
         return Some(AxisLine {
             axis,
             at: circle.center,
-            depth: pieces.depth(v) - d.dot(n.truncate()) / n.z,
+            depth: level_across(drawing, pieces, e, axis, circle.center),
         });
     }
     if let [only] = face.loops.concat().as_slice() {
@@ -68,16 +65,26 @@ pub(super) fn axis_line(drawing: &Drawing, pieces: &Pieces, face: &Face) -> Opti
     if corners.len() < 4 {
         return None;
     }
-    let v = drawing.edges[edges().next()?].v[0];
+    let first = edges().next()?;
     pieces.axes.iter().enumerate().find_map(|(axis, &n)| {
-        let circle = circle_through(&corners, n, &Camera::Parallel)?;
+        let circle = circle_through(&corners, n, &pieces.camera)?;
         let close = circle.residual < 1e-3 * circle.radius;
         close.then(|| AxisLine {
             axis,
             at: circle.center,
-            depth: pieces.depth(v) - (circle.center - drawing.vertices[v]).dot(n.truncate()) / n.z,
+            depth: level_across(drawing, pieces, first, axis, circle.center),
         })
     })
+}
+
+/// Level of a point in the plane across an axis that an edge begins in.
+fn level_across(drawing: &Drawing, pieces: &Pieces, edge: usize, axis: usize, at: DVec2) -> f64 {
+    let v = drawing.edges[edge].v[0];
+    let across = pieces
+        .camera
+        .across(pieces.axes[axis], drawing.vertices[v], at);
+    let height = (across.from * pieces.height(v) + across.rise) / across.to;
+    pieces.camera.level(height)
 }
 
 /// Axis of a closed silhouette, which is its own mirror image on the other side of the drawn axis.
@@ -91,7 +98,8 @@ fn silhouette_axis(drawing: &Drawing, pieces: &Pieces, edge: usize) -> Option<Ax
         });
     let mut best: Option<(f64, AxisLine)> = None;
     for (axis, direction) in pieces.axes.iter().enumerate() {
-        let along = direction.truncate().normalize_or_zero();
+        let along = pieces.camera.drawn(*direction, (low + high) / 2.0);
+        let along = along.normalize_or_zero();
         let ends = |d: DVec2| {
             let (p, q) = points
                 .iter()
@@ -111,7 +119,8 @@ fn silhouette_axis(drawing: &Drawing, pieces: &Pieces, edge: usize) -> Option<Ax
             })
             .fold(0.0, f64::max);
         if far < 0.01 * (high - low).length() && best.as_ref().is_none_or(|b| far < b.0) {
-            let depth = pieces.depth(drawing.edges[edge].v[0]);
+            let height = pieces.height(drawing.edges[edge].v[0]);
+            let depth = pieces.camera.level(height);
             best = Some((far, AxisLine { axis, at, depth }));
         }
     }

@@ -78,20 +78,19 @@ struct Chosen {
 
 /// The chains of at least two loops of different parts.
 pub(super) fn chains(shapes: &Shapes, links: &[Link]) -> Vec<Chain> {
-    let mut groups: Vec<(usize, f64, Vec<usize>)> = Vec::new();
+    let mut groups: Vec<(usize, DVec2, Vec<usize>)> = Vec::new();
     for (i, outline) in shapes.loops.iter().enumerate() {
         let Some(line) = outline.line else { continue };
-        let along = shapes.axes[line.axis].truncate();
+        let along = shapes.camera.drawn(shapes.axes[line.axis], line.at);
         if along.length() < 1e-3 {
             continue;
         }
-        let off = line.at.perp_dot(along.normalize());
-        let near = |g: &&mut (usize, f64, Vec<usize>)| {
-            g.0 == line.axis && (g.1 - off).abs() < 2e-3 * shapes.size
-        };
+        let off = |at: DVec2| (at - line.at).perp_dot(along.normalize()).abs();
+        let near =
+            |g: &&mut (usize, DVec2, Vec<usize>)| g.0 == line.axis && off(g.1) < 2e-3 * shapes.size;
         match groups.iter_mut().find(near) {
             Some(group) => group.2.push(i),
-            None => groups.push((line.axis, off, vec![i])),
+            None => groups.push((line.axis, line.at, vec![i])),
         }
     }
     let several = |list: &[usize]| {
@@ -101,31 +100,35 @@ pub(super) fn chains(shapes: &Shapes, links: &[Link]) -> Vec<Chain> {
     groups
         .into_iter()
         .filter(|(_, _, list)| several(list) && list.len() <= 120)
-        .map(|(axis, _, list)| Chain::new(shapes, links, axis, list))
+        .map(|(axis, at, list)| Chain::new(shapes, links, (axis, at), list))
         .filter(|chain| !chain.pairs.is_empty())
         .collect()
 }
 
 impl Chain {
-    fn new(shapes: &Shapes, links: &[Link], axis: usize, mut list: Vec<usize>) -> Self {
+    /// The loops of a list, around an axis through the place that is drawn there.
+    fn new(
+        shapes: &Shapes,
+        links: &[Link],
+        (axis, start): (usize, DVec2),
+        mut list: Vec<usize>,
+    ) -> Self {
         // From the outside to the inside, so that what is drawn near is decided together.
         list.sort_by(|&a, &b| {
             let area = |i: usize| shapes.loops[i].area.abs();
             area(b).total_cmp(&area(a)).then(a.cmp(&b))
         });
         let direction = shapes.axes[axis];
-        let drawn = direction.truncate();
-        let unit = drawn.normalize_or(DVec2::X);
-        let rise = direction.z / drawn.length();
+        let unit = shapes.camera.drawn(direction, start).normalize_or(DVec2::X);
         let rings: Vec<Ring> = list
             .iter()
             .filter_map(|&outline| {
                 let line = shapes.loops[outline].line?;
-                let along = line.at.dot(unit);
+                let along = (line.at - start).dot(unit);
                 Some(Ring {
                     outline,
                     along: (!shapes.loops[outline].fold).then_some(along),
-                    shift: along * rise - line.depth,
+                    shift: shapes.camera.climb(direction, start, line.at) - line.depth,
                 })
             })
             .collect();

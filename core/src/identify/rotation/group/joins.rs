@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::body::{Place, fit};
-use super::links::{Link, LinkKind};
+use super::links::{Link, LinkKind, PARALLEL};
 use super::score::{COUNT, Feature, JoinScorer, Row};
 use super::shapes::Shapes;
 
@@ -227,7 +227,7 @@ impl Joiner<'_> {
         let above: f64 = self.shapes.parts[part]
             .samples
             .iter()
-            .map(|s| s.z + place.shift - base.shift - plane.depth(s.truncate()))
+            .map(|s| s.z + place.shift - base.shift - plane.level(s.truncate()))
             .sum();
         let to_viewer = (outer.area > 0.0) != base.turned;
         (above > 0.0) == to_viewer
@@ -273,7 +273,10 @@ impl Joiner<'_> {
         };
         let outline = &self.shapes.loops[outline];
         let plane = outline.plane?;
-        let normal = glam::DVec3::new(plane.a, plane.b, 1.0).normalize();
+        if !self.shapes.camera.is_parallel() {
+            return None;
+        }
+        let normal = plane.normal();
         let pairs = [(x, [y, z]), (y, [x, z]), (z, [x, y])];
         let (_, [u, v]) = pairs
             .into_iter()
@@ -299,8 +302,10 @@ impl Joiner<'_> {
         let (p, q) = (self.shapes.loops[a].line?, self.shapes.loops[b].line?);
         let n = self.shapes.axes[p.axis];
         let d = q.at - p.at;
-        let along = n.truncate().normalize_or(DVec2::X);
-        (p.axis == q.axis).then(|| d.perp_dot(along).hypot(d.dot(along) / n.z.abs().max(1e-3)))
+        let camera = &self.shapes.camera;
+        let along = camera.drawn(n, p.at).normalize_or(DVec2::X);
+        let facing = camera.facing(n, p.at).abs().max(1e-3);
+        (p.axis == q.axis).then(|| d.perp_dot(along).hypot(d.dot(along) / facing))
     }
 
     fn centred(&self, link: &Link) -> f64 {
@@ -367,8 +372,8 @@ impl Joiner<'_> {
                 b.part != part
                     && state.placed[b.part].is_some_and(|base| {
                         b.plane.is_some_and(|q| {
-                            (p.a - q.a).hypot(p.b - q.b) < 5e-3 * (1.0 + p.a * p.a + p.b * p.b)
-                                && (p.depth(at) + place.shift - q.depth(at) - base.shift).abs()
+                            p.normal().cross(q.normal()).length() < PARALLEL
+                                && (p.level(at) + place.shift - q.level(at) - base.shift).abs()
                                     < self.shapes.tolerance
                         })
                     })

@@ -5,9 +5,8 @@ use glam::DVec2;
 use super::shapes::{Outline, Shapes};
 use crate::lift::Tilt;
 
-/// Difference of slopes, relative to the squared length of the normal (a, b, 1), up to which planes
-/// are parallel.
-const PARALLEL: f64 = 5e-3;
+/// Sine of the angle between normals up to which planes are parallel.
+pub(super) const PARALLEL: f64 = 5e-3;
 
 /// Share of the inner loop's points that must be drawn inside the outer one.
 const INSIDE: f64 = 0.9;
@@ -53,7 +52,7 @@ pub(super) fn links(shapes: &Shapes) -> Vec<Link> {
             }
             let coplanar = parallel(a, b).map(|(p, q)| {
                 let middle = (b.low + b.high) / 2.0;
-                p.depth(middle) - q.depth(middle)
+                p.level(middle) - q.level(middle)
             });
             let coaxial = coaxial(shapes, a, b);
             if coplanar.is_none() && coaxial.is_none() || inside(a, b) < INSIDE {
@@ -82,8 +81,7 @@ pub(super) fn links(shapes: &Shapes) -> Vec<Link> {
 
 fn parallel(a: &Outline, b: &Outline) -> Option<(Tilt, Tilt)> {
     let (p, q) = (a.plane?, b.plane?);
-    let slope = 1.0 + p.a * p.a + p.b * p.b;
-    ((p.a - q.a).hypot(p.b - q.b) < PARALLEL * slope).then_some((p, q))
+    (p.normal().cross(q.normal()).length() < PARALLEL).then_some((p, q))
 }
 
 /// Offset in depth that puts two loops' axes into one line, if they are drawn so.
@@ -93,14 +91,13 @@ fn coaxial(shapes: &Shapes, a: &Outline, b: &Outline) -> Option<f64> {
         return None;
     }
     let axis = shapes.axes[p.axis];
-    let drawn = axis.truncate();
+    let drawn = shapes.camera.drawn(axis, p.at);
     let length = drawn.length();
     let apart = q.at - p.at;
     if length < 1e-3 || apart.perp_dot(drawn).abs() > ON_AXIS * shapes.size * length {
         return None;
     }
-    let rise = apart.dot(drawn) / (length * length) * axis.z;
-    Some(p.depth + rise - q.depth)
+    Some(p.depth + shapes.camera.climb(axis, p.at, q.at) - q.depth)
 }
 
 /// Share of loop `b`'s points drawn inside loop `a`.

@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 use super::axis::{AxisLine, axis_line, is_ring};
 use crate::drawing::{Curve2, Drawing, Graph, SurfaceKind};
 use crate::identify::Face;
-use crate::lift::{Pieces, Tilt};
+use crate::lift::{Camera, Pieces, Tilt};
 
 /// Error of depth that is allowed, relative to the drawing's size.
 const SAME: f64 = 2e-3;
@@ -56,6 +56,8 @@ pub(super) struct Shapes {
     pub(super) parts: Vec<Part>,
     /// Axes towards the viewer, three of a frame, or one.
     pub(super) axes: Vec<DVec3>,
+    /// What was drawn how; depths here are [levels](Camera::level).
+    pub(super) camera: Camera,
     /// Size of the drawing.
     pub(super) size: f64,
     /// Difference of depth up to which two are one.
@@ -106,6 +108,7 @@ impl Shapes {
             loops,
             parts,
             axes: pieces.axes.clone(),
+            camera: pieces.camera,
             size: drawing.size(),
             tolerance: SAME * drawing.size(),
         }
@@ -145,7 +148,7 @@ impl Outline {
     /// between its boundary on either side.
     pub(super) fn depth(&self, p: DVec2) -> f64 {
         if let Some(plane) = self.plane {
-            return plane.depth(p);
+            return plane.level(p);
         }
         // Distance and depth of the nearest boundary point on either side.
         let mut sides: [Option<(f64, f64)>; 2] = [None; 2];
@@ -220,21 +223,22 @@ fn edge_depths(drawing: &Drawing, pieces: &Pieces, faces: &[Face]) -> Vec<Vec<f6
     }
     let mut all = Vec::with_capacity(drawing.edges.len());
     for (e, edge) in drawing.edges.iter().enumerate() {
-        let [y, z] = edge.v.map(|v| pieces.depth(v));
+        let [y, z] = edge.v.map(|v| pieces.height(v));
+        let camera = pieces.camera;
         let n = (edge.points.len() - 1) as f64;
         let start = edge.points[0];
         let depth = |(k, p): (usize, &DVec2)| {
+            let between = camera.level(y + (z - y) * k as f64 / n);
             if edge.is_straight() {
-                return y + (z - y) * k as f64 / n;
+                return between;
             }
-            let d = *p - start;
             if let Some((axis, _)) = pieces.circle(e) {
-                let normal = pieces.axes[axis];
-                return y - d.dot(normal.truncate()) / normal.z;
+                let across = camera.across(pieces.axes[axis], start, *p);
+                return camera.level((across.from * y + across.rise) / across.to);
             }
             match plane_of[e] {
-                Some(t) => y + t.depth(*p) - t.depth(start),
-                None => y + (z - y) * k as f64 / n,
+                Some(t) => camera.level(y) + t.level(*p) - t.level(start),
+                None => between,
             }
         };
         all.push(edge.points.iter().enumerate().map(depth).collect());
