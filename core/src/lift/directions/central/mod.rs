@@ -99,7 +99,11 @@ pub(super) fn candidates(
             }),
         };
         let bits = readings.first().map_or(0.0, |r| r.votes * worth);
-        if bits > best.as_ref().map_or(0.0, |b| b.0) {
+        // Fitting fewer numbers is no gain where a finer reading explains as much.
+        let constraints = |r: &[Reading]| r.first().map_or(0, |r| r.constraints);
+        let more =
+            |b: &(f64, Vec<Reading>)| bits > b.0 && constraints(&readings) > constraints(&b.1);
+        if bits > 0.0 && best.as_ref().is_none_or(more) {
             best = Some((bits, readings));
         }
     }

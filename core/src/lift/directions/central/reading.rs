@@ -34,7 +34,9 @@ const UPRIGHT: f64 = 1.0;
 /// A reading of the evidence.
 pub(super) struct Reading {
     pub(super) directions: Directions,
-    /// Lines and circles explained, in votes, less the numbers fitted.
+    /// Lines explained, and circles, which count twice.
+    pub(super) constraints: usize,
+    /// The same less the numbers fitted.
     pub(super) votes: f64,
     /// How much it looks like the axes of a part.
     pub(super) score: f64,
@@ -145,13 +147,15 @@ fn frame_reading(lines: &Lines, round: &[Circle], f: &Fitted, open: Open) -> Opt
         .iter()
         .filter(|a| a.edges.is_empty() && a.circles.is_empty());
     let bare = bare.count();
-    let votes = f.followers.constraints() as f64 - (3 + open.count() + bare) as f64;
+    let constraints = f.followers.constraints();
+    let votes = constraints as f64 - (3 + open.count() + bare) as f64;
     let upright = axes.iter().any(|a| {
         let sideways = a.direction.x.abs();
         sideways < AGREE * f.error && a.direction.y.abs() > 0.1
     });
     (bare < 2).then(|| Reading {
         score: explained(lines, round, &f.followers) + if upright { UPRIGHT } else { 0.0 },
+        constraints,
         votes,
         directions: Directions {
             axes: axes.into(),
@@ -216,9 +220,11 @@ fn axis_reading(
     };
     let straight: f64 = edges.map(|(l, _)| lines.salience(l)).sum();
     let shown = round.iter().zip(&around).map(|(c, a)| roundness(c, *a));
+    let constraints = axis.edges.len() + 2 * axis.circles.len();
     Reading {
         score: straight + shown.sum::<f64>(),
-        votes: (axis.edges.len() + 2 * axis.circles.len()) as f64 - 2.0,
+        constraints,
+        votes: constraints as f64 - 2.0,
         directions: Directions {
             axes: vec![axis],
             slanted: Vec::new(),
