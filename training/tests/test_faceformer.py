@@ -24,9 +24,8 @@ from faceformer_training.faceformer.config import (  # noqa: E402
     ModelConfig,
     TrainConfig,
 )
-from faceformer_training.faceformer.data import Shard, collate, prefetched  # noqa: E402
+from faceformer_training.faceformer.data import Shard, collate  # noqa: E402
 from faceformer_training.faceformer.decode import greedy  # noqa: E402
-from faceformer_training.faceformer.fixture import random_model  # noqa: E402
 from faceformer_training.faceformer.model import PointerModel  # noqa: E402
 from faceformer_training.faceformer.sequences import (  # noqa: E402
     all_at_once,
@@ -35,6 +34,8 @@ from faceformer_training.faceformer.sequences import (  # noqa: E402
     sets_at_once,
 )
 from faceformer_training.faceformer.train import losses, train  # noqa: E402
+from faceformer_training.network.batches import prefetched  # noqa: E402
+from faceformer_training.network.fixture import with_random_weights  # noqa: E402
 
 ROOT = Path(__file__).parents[2]
 PROGRAM = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")) / "release" / "faceformer"
@@ -147,7 +148,7 @@ def test_edges_are_in_two_faces(shard):
 @pytest.mark.parametrize("variant", VARIANTS)
 def test_drawings_in_a_batch_do_not_see_each_other(shard, variant):
     config = tiny(variant)
-    model = random_model(config, 1)
+    model = with_random_weights(PointerModel(config), 1)
     random = np.random.default_rng(0)
     places = [(shard, i) for i in range(5)]
     with torch.no_grad():
@@ -165,7 +166,7 @@ def test_drawings_in_a_batch_do_not_see_each_other(shard, variant):
 
 def test_later_tokens_are_not_seen(shard):
     config = tiny()
-    model = random_model(config, 2)
+    model = with_random_weights(PointerModel(config), 2)
     batch = collate([(shard, 0)], config, 4, np.random.default_rng(0))
     with torch.no_grad():
         before = model(batch)
@@ -177,7 +178,7 @@ def test_later_tokens_are_not_seen(shard):
 
 def test_greedy_decoding_follows_the_logits(shard):
     config = tiny(steps=6)
-    model = random_model(config, 3)
+    model = with_random_weights(PointerModel(config), 3)
     points = torch.from_numpy(shard.points(0, "faceformer")).float().flatten(1)
     encoded = model.encode(points[None], torch.zeros(1, len(points), dtype=torch.bool))
     decoded = greedy(model, points, causal=True)
@@ -244,7 +245,7 @@ def test_the_program_runs_what_is_exported(config, tmp_path):
     config.steps = 1
     last = train(config, resume=False)
     model = tmp_path / "m.safetensors"
-    module = "faceformer_training.faceformer.export"
+    module = "faceformer_training.network.export"
     subprocess.run([sys.executable, "-m", module, last, model], check=True, env=environment())
     described = json.loads(model.with_suffix(".json").read_text())
     assert described["model"]["variant"] == config.variant

@@ -11,10 +11,11 @@ torch = pytest.importorskip("torch")
 pytest.importorskip("lightning_fabric")
 pytest.importorskip("safetensors")
 
+from faceformer_training.network.batches import batches  # noqa: E402
+from faceformer_training.network.export import write  # noqa: E402
+from faceformer_training.network.fixture import with_random_weights  # noqa: E402
 from faceformer_training.rotation.config import ModelConfig, TrainConfig  # noqa: E402
-from faceformer_training.rotation.data import Shard, batches, collate  # noqa: E402
-from faceformer_training.rotation.export import write  # noqa: E402
-from faceformer_training.rotation.fixture import random_model  # noqa: E402
+from faceformer_training.rotation.data import Shard, collate  # noqa: E402
 from faceformer_training.rotation.model import RotationModel, flip_logits  # noqa: E402
 from faceformer_training.rotation.train import train  # noqa: E402
 
@@ -58,7 +59,7 @@ def test_the_untrained_network_scores_as_the_hand_made_rules(shard):
 
 
 def test_drawings_in_a_batch_do_not_see_each_other(shard):
-    model = random_model(ModelConfig.preset("tiny"), 1)
+    model = with_random_weights(RotationModel(ModelConfig.preset("tiny")), 1)
     drawings = [shard.drawing(i) for i in range(5)]
     with torch.no_grad():
         together = model(collate(drawings))
@@ -68,7 +69,7 @@ def test_drawings_in_a_batch_do_not_see_each_other(shard):
 
 
 def test_swapping_a_triples_ends_changes_nothing(shard):
-    model = random_model(ModelConfig.preset("tiny"), 2)
+    model = with_random_weights(RotationModel(ModelConfig.preset("tiny")), 2)
     batch = collate([shard.drawing(0)])
     with torch.no_grad():
         before, _ = model(batch)
@@ -124,7 +125,7 @@ def test_training_is_reproducible_and_resumes(config, tmp_path):
 
 
 def test_export_describes_its_weights(tmp_path):
-    model = random_model(ModelConfig.preset("tiny"), 0)
+    model = with_random_weights(RotationModel(ModelConfig.preset("tiny")), 0)
     beside = write(model.state_dict(), {"width": 32}, tmp_path / "m.safetensors")
     described = json.loads(beside.read_text())
     assert described["model"] == {"width": 32} and len(described["sha256"]) == 64

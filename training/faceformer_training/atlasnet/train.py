@@ -19,7 +19,7 @@ from lightning_fabric import Fabric
 from safetensors import safe_open
 from tqdm import tqdm
 
-from ..rotation.train import Curve
+from ..network.run import Curve
 from .model import AtlasConfig, AtlasNet, chamfer
 
 

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import dataclasses
-import json
-from pathlib import Path
-from typing import Any
+
+from ..network.config import RunConfig
 
 # Of the tables that `faceformer features --for faceformer` writes.
 FORMAT = 1
@@ -59,55 +58,26 @@ PRESETS: dict[str, dict[str, int]] = {
 
 
 @dataclasses.dataclass
-class TrainConfig:
-    """A training run; the file is JSON with these keys, all of them optional.
+class TrainConfig(RunConfig):
+    """A training run; see :class:`..network.config.RunConfig` for what is not here.
 
-    The shards and the output may as well be named on the command line.
+    ``batch_edges`` counts if ``batch_drawings`` is 0.
     """
 
-    # Epoch k takes list k modulo their number: variations of the same drawings.
-    train: list[list[str]] = dataclasses.field(default_factory=list)
-    output: str = ""
-    # Shards of other solids, on which the curve is measured; none, no measurement.
-    validation: list[str] = dataclasses.field(default_factory=list)
     variant: str = "faceformer"
-    preset: str = "small"
-    # Added to the preset, for instance {"further_loops": "walked"}.
-    model: dict[str, Any] = dataclasses.field(default_factory=dict)
     steps: int = 20_000
     # Drawings in a batch, or with 0 as many as have `batch_edges` edges, padding included.
     batch_drawings: int = 0
     batch_edges: int = 512
     # Starts of each drawing in a batch, chosen anew each time; 0 takes all. Faceformer only.
     starts: int = 16
-    # Drawings with more edges are not trained on.
-    max_edges: int = 160
     learning_rate: float = 1e-4
     warmup: int = 0
     # "constant", or "cosine" down to a hundredth.
     schedule: str = "constant"
     dropout: float = 0.0
-    clip: float = 1.0
-    # Share of the old value in the running mean of the weights, which is what is kept; 0, no mean.
     average: float = 0.0
-    seed: int = 0
-    validate_every: int = 500
     validate_drawings: int = 200
-    # See lightning-fabric: "cpu", "cuda", "auto"; "32-true", "bf16-mixed".
-    accelerator: str = "auto"
-    devices: int | str = 1
-    nodes: int = 1
-    precision: str = "32-true"
-    threads: int = 1
-
-    @classmethod
-    def read(cls, path: Path) -> TrainConfig:
-        data: dict[str, Any] = json.loads(path.read_text())
-        known = {field.name for field in dataclasses.fields(cls)}
-        unknown = sorted(set(data) - known)
-        if unknown:
-            raise ValueError(f"{path}: unknown keys {', '.join(unknown)}")
-        return cls(**data)
 
     def network(self) -> ModelConfig:
         return dataclasses.replace(ModelConfig.preset(self.preset, self.variant), **self.model)

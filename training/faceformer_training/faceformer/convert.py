@@ -21,7 +21,7 @@ from typing import Any
 
 import torch
 
-from ..rotation.export import write
+from ..network.export import write
 from .config import TOKENS, VARIANTS, ModelConfig
 
 # Their names of modules, without the "model." of the Lightning module, and ours.

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
-import queue
-import threading
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -137,38 +135,3 @@ def collate(
     # A sequence that is none begins with a type, as good as any token: it has no target.
     targets[targets[..., 0] == PAD, 0] = TOKENS - 1
     return Batch(*(torch.from_numpy(x) for x in (padded, absent, targets)))
-
-
-def prefetched(items: Iterator, ahead: int = 4) -> Iterator:
-    """The same items, made in a thread a few ahead of their use."""
-    waiting: queue.Queue = queue.Queue(ahead)
-    stop, end = threading.Event(), object()
-
-    def fill() -> None:
-        last: object = end
-        try:
-            for item in items:
-                while not stop.is_set():
-                    try:
-                        waiting.put((item, None), timeout=0.2)
-                        break
-                    except queue.Full:
-                        continue
-                if stop.is_set():
-                    return
-        except BaseException as error:
-            last = error
-        waiting.put((None, last))
-
-    thread = threading.Thread(target=fill, daemon=True)
-    thread.start()
-    try:
-        while True:
-            item, last = waiting.get()
-            if last is end:
-                return
-            if last is not None:
-                raise last
-            yield item
-    finally:
-        stop.set()

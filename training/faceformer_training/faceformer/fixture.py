@@ -15,25 +15,13 @@ from pathlib import Path
 import torch
 from safetensors.torch import save_file
 
-from ..rotation.export import write
+from ..network.export import write
+from ..network.fixture import with_random_weights
 from .config import VARIANTS, ModelConfig
 from .data import Shard
 from .model import PointerModel
 
 STRIDE = 7
-
-
-def random_model(config: ModelConfig, seed: int) -> PointerModel:
-    """A network none of whose weights is zero or one, so that none can be forgotten."""
-    torch.manual_seed(seed)
-    model = PointerModel(config)
-    with torch.no_grad():
-        for name, weight in model.named_parameters():
-            fan = weight.shape[-1] if weight.dim() > 1 else 4
-            weight.normal_(0.0, fan**-0.5)
-            if "norm.weight" in name:
-                weight.add_(1.0)
-    return model.eval()
 
 
 def chances(model: PointerModel, encoded, sequences: torch.Tensor, causal: bool) -> torch.Tensor:
@@ -83,7 +71,7 @@ def main() -> None:
     tables = {}
     for seed, variant in enumerate(VARIANTS):
         config = dataclasses.replace(ModelConfig.preset("tiny", variant), inputs=512, steps=12)
-        model = random_model(config, seed)
+        model = with_random_weights(PointerModel(config), seed)
         tables |= tables_of(model, shard, variant)
         path = options.output / f"{variant}.safetensors"
         write(model.state_dict(), dataclasses.asdict(config), path)

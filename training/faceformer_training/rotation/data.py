@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -165,29 +165,3 @@ def collate(drawings: Sequence[dict[str, np.ndarray]]) -> Batch:
         flips=joined["flips"],
         orders={degree: joined[f"orders{degree}"] for degree in DEGREES},
     )
-
-
-Place = tuple[Shard, int]
-
-
-def batches(places: Sequence[Place], budget: int, seed: int) -> Iterator[list[Place]]:
-    """Drawings in random batches of similar size, at most ``budget`` padded edges in each.
-
-    The same seed gives the same batches in the same order.
-    """
-    random = np.random.default_rng(seed)
-    order = random.permutation(len(places))
-    groups: list[list[Place]] = []
-    chunk = 2048
-    for first in range(0, len(order), chunk):
-        some = [places[k] for k in order[first : first + chunk]]
-        some.sort(key=lambda place: place[0].sizes[place[1]])
-        group: list[Place] = []
-        for place in some:
-            if group and (len(group) + 1) * place[0].sizes[place[1]] > budget:
-                groups.append(group)
-                group = []
-            group.append(place)
-        groups.append(group)
-    for k in random.permutation(len(groups)):
-        yield groups[k]

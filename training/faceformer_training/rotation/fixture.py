@@ -15,25 +15,13 @@ from pathlib import Path
 import torch
 from safetensors.torch import save_file
 
+from ..network.export import write
+from ..network.fixture import with_random_weights
 from .config import ModelConfig
 from .data import Shard, collate
-from .export import write
 from .model import RotationModel
 
 STRIDE = 7
-
-
-def random_model(config: ModelConfig, seed: int) -> RotationModel:
-    """A network none of whose weights is zero or one, so that none can be forgotten."""
-    torch.manual_seed(seed)
-    model = RotationModel(config)
-    with torch.no_grad():
-        for name, weight in model.named_parameters():
-            fan = weight.shape[-1] if weight.dim() > 1 else 4
-            weight.normal_(0.0, fan**-0.5)
-            if "norm.weight" in name:
-                weight.add_(1.0)
-    return model.eval()
 
 
 @torch.no_grad()
@@ -45,7 +33,7 @@ def main() -> None:
     parser.add_argument("output", type=Path)
     options = parser.parse_args()
     config = dataclasses.replace(ModelConfig.preset("tiny"), width=16, hidden=24)
-    model = random_model(config, 0)
+    model = with_random_weights(RotationModel(config), 0)
     shard = Shard(options.shard)
     scores, kinds = [], []
     for i in range(len(shard)):

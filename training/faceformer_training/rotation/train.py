@@ -1,7 +1,7 @@
 """``python -m faceformer_training.rotation.train CONFIG.json [--resume]`` trains the model.
 
 The configuration is that of :class:`.config.TrainConfig`. The folder ``output`` gets ``curve.csv``
-and ``last.ckpt``, from which ``--resume`` goes on; ``.export`` turns that into what the program
+and ``last.ckpt``, from which ``--resume`` goes on; ``network.export`` turns that into what the program
 loads. The same command runs on one CPU, one GPU, several GPUs or several machines, see the
 configuration's ``accelerator``, ``devices``, ``nodes`` and ``precision``. The same seed gives the
 same batches and first weights whatever the device; sums are rounded as the device likes.
@@ -9,21 +9,17 @@ same batches and first weights whatever the device; sums are rounded as the devi
 
 from __future__ import annotations
 
-import argparse
-import csv
-import dataclasses
 import math
-import time
-from collections.abc import Iterator
 from pathlib import Path
 
 import torch
 import torch.nn.functional as F
 from lightning_fabric import Fabric
-from tqdm import tqdm
 
+from ..network.batches import Place, Source
+from ..network.run import command, cosine, run
 from .config import TrainConfig
-from .data import Batch, Place, Shard, batches, collate
+from .data import Batch, Shard, collate
 from .model import RotationModel, flip_logits, order_logits
 
 
@@ -70,165 +66,61 @@ def weighted(parts: dict[str, torch.Tensor], config: TrainConfig) -> torch.Tenso
     )
 
 
-def rate(config: TrainConfig, step: int) -> float:
-    """Learning rate: linear up, then half a cosine down to a hundredth."""
-    if step < config.warmup:
-        return config.learning_rate * (step + 1) / config.warmup
-    done = (step - config.warmup) / max(1, config.steps - config.warmup)
-    return config.learning_rate * (0.01 + 0.99 * 0.5 * (1 + math.cos(math.pi * min(1.0, done))))
+class RotationSource(Source):
+    """Batches of the rotation engine's tables."""
+
+    def open(self, path: Path) -> Shard:
+        return Shard(path)
+
+    def collate(self, group: list[Place], *seed: int) -> Batch:
+        return collate([shard.drawing(i) for shard, i in group])
 
 
-class Source:
-    """Endless training batches, and the validation drawings, of the configured shards."""
+class RotationTask:
+    """See :class:`..network.run.Task`."""
 
-    def __init__(self, config: TrainConfig, rank: int, world: int):
-        self.config, self.rank, self.world = config, rank, world
-        self.loaded: tuple[int, list[Shard]] | None = None
+    def __init__(self, config: TrainConfig):
+        self.config = config
+        self.network = config.network()
 
-    def shards(self, epoch: int) -> list[Shard]:
-        variation = epoch % len(self.config.train)
-        if self.loaded is None or self.loaded[0] != variation:
-            self.loaded = None
-            self.loaded = (variation, [Shard(Path(p)) for p in self.config.train[variation]])
-        return self.loaded[1]
+    def models(self) -> tuple[RotationModel, RotationModel]:
+        return RotationModel(self.network), RotationModel(self.network)
 
-    def places(self, shards: list[Shard]) -> list[Place]:
-        """The drawings that are not too large."""
-        return [
-            (shard, i)
-            for shard in shards
-            for i in range(len(shard))
-            if shard.sizes[i] <= self.config.max_edges
-        ]
+    def optimizer(self, model: torch.nn.Module) -> torch.optim.Optimizer:
+        decay = self.config.weight_decay
+        rate = self.config.learning_rate
+        return torch.optim.AdamW(model.parameters(), rate, (0.9, 0.98), weight_decay=decay)
 
-    def validation(self) -> list[Batch]:
-        """The same drawings whenever it is asked."""
-        places = self.places([Shard(Path(p)) for p in self.config.validation])
-        step = max(1, len(places) // max(1, self.config.validate_drawings))
-        groups = batches(places[::step], self.config.batch_edges, 0)
-        return [collate([shard.drawing(i) for shard, i in group]) for group in groups]
+    def source(self, rank: int, world: int) -> Source:
+        return RotationSource(self.config, rank, world)
 
-    def batches(self, skip: int) -> Iterator[tuple[int, Batch, int]]:
-        """Epoch, batch and its number of drawings, beginning after ``skip`` batches."""
-        epoch = seen = 0
-        while True:
-            places = self.places(self.shards(epoch))
-            if not places:
-                raise ValueError("the shards hold no drawing to train on")
-            seed = self.config.seed * 1_000_003 + epoch
-            for k, group in enumerate(batches(places, self.config.batch_edges, seed)):
-                if k % self.world != self.rank:
-                    continue
-                seen += 1
-                if seen > skip:
-                    yield epoch, collate([shard.drawing(i) for shard, i in group]), len(group)
-            epoch += 1
+    def rate(self, step: int) -> float:
+        return cosine(self.config, step)
 
+    def losses(self, model: torch.nn.Module, batch: Batch) -> dict[str, torch.Tensor]:
+        parts = losses(model, batch)
+        return {"loss": weighted(parts, self.config)} | parts
 
-@torch.no_grad()
-def validate(model: torch.nn.Module, batch_list: list[Batch], device) -> dict[str, float]:
-    """Means over the validation batches that have what is measured."""
-    model.eval()
-    seen: dict[str, list[float]] = {}
-    for batch in batch_list:
-        for name, value in losses(model, batch.to(device)).items():
-            values = seen.setdefault(name, [])
-            if not math.isnan(value):
-                values.append(float(value))
-    model.train()
-    return {name: sum(values) / max(1, len(values)) for name, values in seen.items()}
+    @torch.no_grad()
+    def validate(
+        self, model: torch.nn.Module, held_out: list[Batch], fabric: Fabric
+    ) -> dict[str, float]:
+        """Means over the validation batches that have what is measured."""
+        model.eval()
+        seen: dict[str, list[float]] = {}
+        for batch in held_out:
+            for name, value in losses(model, batch.to(fabric.device)).items():
+                values = seen.setdefault(name, [])
+                if not math.isnan(value):
+                    values.append(float(value))
+        model.train()
+        return {name: sum(values) / max(1, len(values)) for name, values in seen.items()}
 
 
 def train(config: TrainConfig, resume: bool, stop: int | None = None) -> Path:
     """Trains, up to step ``stop`` if given, and returns the path of the last checkpoint."""
-    torch.set_num_threads(config.threads)
-    fabric = Fabric(
-        accelerator=config.accelerator,
-        devices=config.devices,
-        num_nodes=config.nodes,
-        precision=config.precision,
-    )
-    fabric.launch()
-    torch.manual_seed(config.seed)
-    output = Path(config.output)
-    last = output / "last.ckpt"
-    if fabric.is_global_zero:
-        output.mkdir(parents=True, exist_ok=True)
-    model = RotationModel(config.network())
-    average = RotationModel(config.network())
-    average.load_state_dict(model.state_dict())
-    optimizer = torch.optim.AdamW(
-        model.parameters(), config.learning_rate, (0.9, 0.98), weight_decay=config.weight_decay
-    )
-    model, optimizer = fabric.setup(model, optimizer)
-    average = fabric.to_device(average)
-    state = {"model": model, "optimizer": optimizer, "average": average, "step": 0, "drawings": 0}
-    if resume:
-        fabric.load(last, state)
-    source = Source(config, fabric.global_rank, fabric.world_size)
-    held_out = source.validation() if fabric.is_global_zero else []
-    curve = Curve(output / "curve.csv", resume) if fabric.is_global_zero else None
-    bar = tqdm(total=config.steps, initial=state["step"], disable=not fabric.is_global_zero)
-    started = time.monotonic()
-    last_step = config.steps if stop is None else min(stop, config.steps)
-    for epoch, batch, count in source.batches(skip=state["step"]):
-        step = state["step"]
-        if step >= last_step:
-            break
-        for group in optimizer.param_groups:
-            group["lr"] = rate(config, step)
-        parts = losses(model, batch.to(fabric.device))
-        loss = weighted(parts, config)
-        optimizer.zero_grad(set_to_none=True)
-        fabric.backward(loss)
-        fabric.clip_gradients(model, optimizer, max_norm=config.clip)
-        optimizer.step()
-        # The mean begins short, so that the first weights are soon forgotten.
-        keep = min(config.average, (step + 1) / (step + 10))
-        with torch.no_grad():
-            for mean, new in zip(average.parameters(), model.parameters(), strict=True):
-                mean.lerp_(new.detach().to(mean.dtype), 1 - keep)
-        state["step"] += 1
-        state["drawings"] += count * fabric.world_size
-        bar.update()
-        bar.set_postfix(loss=f"{loss.item():.4f}", epoch=epoch, refresh=False)
-        done = state["step"] == last_step
-        if state["step"] % config.validate_every == 0 or done:
-            if curve is not None:
-                row = {"step": state["step"], "epoch": epoch, "drawings": state["drawings"]}
-                row["seconds"] = round(time.monotonic() - started, 1)
-                row["train_loss"] = round(loss.item(), 5)
-                measured = validate(average, held_out, fabric.device) if held_out else {}
-                curve.add(row | {name: round(value, 5) for name, value in measured.items()})
-            fabric.save(last, state | {"config": dataclasses.asdict(config.network())})
-    bar.close()
-    return last
-
-
-class Curve:
-    """Rows of a CSV file, one a validation."""
-
-    def __init__(self, path: Path, resume: bool):
-        self.path = path
-        if not resume:
-            path.unlink(missing_ok=True)
-
-    def add(self, row: dict[str, float]) -> None:
-        new = not self.path.exists()
-        with self.path.open("a", newline="") as file:
-            writer = csv.DictWriter(file, row)
-            if new:
-                writer.writeheader()
-            writer.writerow(row)
-
-
-def main() -> None:
-    parser = argparse.ArgumentParser(prog="faceformer_training.rotation.train", description=__doc__)
-    parser.add_argument("config", type=Path)
-    parser.add_argument("--resume", action="store_true", help="go on from the last checkpoint")
-    options = parser.parse_args()
-    train(TrainConfig.read(options.config), options.resume)
+    return run(RotationTask(config), resume, stop)
 
 
 if __name__ == "__main__":
-    main()
+    command("faceformer_training.rotation.train", __doc__, TrainConfig, train)

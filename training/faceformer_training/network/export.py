@@ -1,4 +1,4 @@
-"""``python -m faceformer_training.rotation.export RUN/last.ckpt OUT.safetensors [--float32]``
+"""``python -m faceformer_training.network.export RUN/last.ckpt OUT.safetensors [--float32]``
 
 Writes the running mean of the weights, and beside it ``OUT.json``: the network's configuration and
 the SHA-256 of the weights, which the program checks before it uses them.
@@ -27,9 +27,7 @@ def write(weights: dict[str, torch.Tensor], config: dict[str, Any], output: Path
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(
-        prog="faceformer_training.rotation.export", description=__doc__
-    )
+    parser = argparse.ArgumentParser(prog="faceformer_training.network.export", description=__doc__)
     parser.add_argument("checkpoint", type=Path)
     parser.add_argument("output", type=Path)
     parser.add_argument("--float32", action="store_true", help="whole instead of half precision")
