@@ -14,6 +14,8 @@ torch = pytest.importorskip("torch")
 pytest.importorskip("lightning_fabric")
 pytest.importorskip("safetensors")
 
+from resuming import check_resumed_equals_unbroken  # noqa: E402
+
 from faceformer_training.faceformer.config import (  # noqa: E402
     EOS,
     PAD,
@@ -223,22 +225,13 @@ def config(shard_path, tmp_path, request) -> TrainConfig:
     )
 
 
-def weights(path: Path) -> dict:
-    return torch.load(path, weights_only=True)["average"]
-
-
 def test_training_learns_is_reproducible_and_resumes(config, tmp_path):
-    whole = weights(train(config, resume=False))
+    whole = train(config, resume=False)
     rows = (tmp_path / "run/curve.csv").read_text().splitlines()
     curve = [dict(zip(rows[0].split(","), row.split(","), strict=True)) for row in rows[1:]]
     assert [row["step"] for row in curve] == ["3", "6"]
     assert float(curve[1]["loss"]) < float(curve[0]["loss"])
-    config.output = str(tmp_path / "parts")
-    train(config, resume=False, stop=3)
-    assert torch.load(tmp_path / "parts/last.ckpt", weights_only=True)["step"] == 3
-    resumed = weights(train(config, resume=True))
-    for name, value in whole.items():
-        torch.testing.assert_close(resumed[name], value)
+    check_resumed_equals_unbroken(train, config, whole, tmp_path / "parts")
 
 
 def test_the_program_runs_what_is_exported(config, tmp_path):

@@ -11,6 +11,8 @@ torch = pytest.importorskip("torch")
 pytest.importorskip("lightning_fabric")
 pytest.importorskip("safetensors")
 
+from resuming import check_resumed_equals_unbroken  # noqa: E402
+
 from faceformer_training.network.batches import batches  # noqa: E402
 from faceformer_training.network.export import write  # noqa: E402
 from faceformer_training.network.fixture import with_random_weights  # noqa: E402
@@ -109,19 +111,10 @@ def config(shard_path, tmp_path) -> TrainConfig:
     )
 
 
-def weights(path: Path) -> dict:
-    return torch.load(path, weights_only=True)["average"]
-
-
 def test_training_is_reproducible_and_resumes(config, tmp_path):
-    whole = weights(train(config, resume=False))
+    whole = train(config, resume=False)
     assert (tmp_path / "run/curve.csv").read_text().count("\n") == 3
-    config.output = str(tmp_path / "parts")
-    train(config, resume=False, stop=3)
-    assert torch.load(tmp_path / "parts/last.ckpt", weights_only=True)["step"] == 3
-    resumed = weights(train(config, resume=True))
-    for name, value in whole.items():
-        torch.testing.assert_close(resumed[name], value)
+    check_resumed_equals_unbroken(train, config, whole, tmp_path / "parts")
 
 
 def test_export_describes_its_weights(tmp_path):

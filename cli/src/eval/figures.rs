@@ -3,10 +3,11 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
+use faceformer::drawing::SurfaceKind;
 use faceformer::identify::metrics::{Summary, median};
 use serde::Serialize;
 
-use super::compare::{Compared, KINDS, name};
+use super::compare::Compared;
 use super::measure::{Corrupted, Measured};
 
 /// What `eval --json` prints. Shares are 0 to 100, times are milliseconds.
@@ -122,14 +123,14 @@ impl SolidFigures {
             times.sort_unstable_by(f64::total_cmp);
             median(&times)
         };
-        let kinds = KINDS.iter().enumerate().filter_map(|(k, kind)| {
+        let kinds = SurfaceKind::ALL.iter().enumerate().filter_map(|(k, kind)| {
             let of: Vec<&Measured> = measured.iter().filter(|m| m.kinds[k]).collect();
             let figures = KindFigures {
                 drawings: of.len(),
                 valid: share(&of, |m| m.valid),
                 right: RightFigures::of(&of, |c| c.faces.of(*kind) == c.true_faces.of(*kind)),
             };
-            (!of.is_empty()).then_some((name(*kind), figures))
+            (!of.is_empty()).then_some((kind.name(), figures))
         });
         Self {
             lifted: share(&all, |m| m.lifted),

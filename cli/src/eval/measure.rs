@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use faceformer::Progress;
-use faceformer::drawing::{Drawing, Truth};
+use faceformer::drawing::{Drawing, SurfaceKind, Truth};
 use faceformer::identify::Identification;
 use faceformer::identify::metrics::DrawingScore;
 use faceformer::lift::{LiftOptions, depth_error, lift};
@@ -11,7 +11,7 @@ use faceformer::plan::{PlanOptions, plan};
 use faceformer_occt::build;
 use serde::Serialize;
 
-use super::compare::{Compared, KINDS, compare};
+use super::compare::{Compared, compare};
 use super::random::Random;
 use super::spoil::corrupt;
 use crate::stages::FacesFrom;
@@ -56,7 +56,7 @@ pub(crate) struct Measured {
     pub(crate) compared: Option<Compared>,
     /// Whether there is a solid, and no true one to compare it with.
     pub(crate) no_truth: bool,
-    /// Which kinds of surface the truth has, in the order of `compare::KINDS`.
+    /// Which kinds of surface the truth has, in the order of [`SurfaceKind::ALL`].
     pub(crate) kinds: [bool; 6],
 }
 
@@ -106,7 +106,7 @@ pub(crate) fn measure(
         corrupted: None,
         compared: None,
         no_truth: false,
-        kinds: KINDS.map(|kind| truth.faces.iter().any(|f| f.kind == kind)),
+        kinds: SurfaceKind::ALL.map(|kind| truth.faces.iter().any(|f| f.kind == kind)),
     };
     if let (Ok(found), true) = (&found, solids) {
         measure_solid(drawing, truth, found, &mut measured, &mut fail);

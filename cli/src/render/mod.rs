@@ -15,7 +15,7 @@ mod wireframe;
 
 use std::path::Path;
 
-use faceformer::drawing::Drawing;
+use faceformer::drawing::{Drawing, SurfaceKind};
 use faceformer::identify::Identification;
 use glam::DVec2;
 
@@ -25,7 +25,7 @@ use crate::output::Output;
 use crate::stages::{FacesFrom, tell, usable};
 use built::Built;
 use page::{Anchor, Page};
-use palette::{KINDS, Rgb};
+use palette::Rgb;
 use view::{Frame, View};
 
 pub(crate) use raster::RasterError as RenderError;
@@ -135,7 +135,7 @@ fn picture(
 
 /// One colour a face: the hue says the kind, the shade tells faces apart.
 fn colours(found: &Identification) -> Vec<Rgb> {
-    let mut counts = [0usize; KINDS.len()];
+    let mut counts = [0usize; SurfaceKind::ALL.len()];
     found
         .faces
         .iter()
@@ -168,14 +168,14 @@ fn draw_legend(page: &mut Page, top: f64, drawing: &Drawing, found: &Identificat
     const SWATCH: f64 = 13.0;
     let mut x = MARGIN;
     let y = top + SWATCH - 2.0;
-    for kind in KINDS {
+    for kind in SurfaceKind::ALL {
         let count = found.faces.iter().filter(|f| f.kind == kind).count();
         if count == 0 {
             continue;
         }
         let corner = DVec2::new(x, top);
         page.rect(corner, DVec2::splat(SWATCH), palette::kind_colour(kind));
-        let text = format!("{} {count}", palette::kind_name(kind));
+        let text = format!("{} {count}", kind.name());
         let at = DVec2::new(x + SWATCH + 6.0, y);
         page.text(at, &text, 13.0, INK, Anchor::Start, false);
         // No font is measured here; 7.5 pixels a letter is ample for this size.

@@ -24,28 +24,6 @@ impl Rgb {
     }
 }
 
-/// All kinds, in the order of the legend.
-pub(crate) const KINDS: [SurfaceKind; 6] = [
-    SurfaceKind::Plane,
-    SurfaceKind::Cylinder,
-    SurfaceKind::Cone,
-    SurfaceKind::Sphere,
-    SurfaceKind::Torus,
-    SurfaceKind::Other,
-];
-
-/// Name of a kind as the legend shows it.
-pub(crate) fn kind_name(kind: SurfaceKind) -> &'static str {
-    match kind {
-        SurfaceKind::Plane => "plane",
-        SurfaceKind::Cylinder => "cylinder",
-        SurfaceKind::Cone => "cone",
-        SurfaceKind::Sphere => "sphere",
-        SurfaceKind::Torus => "torus",
-        SurfaceKind::Other => "other",
-    }
-}
-
 /// Hue in degrees, half the hue range of the kind's shades, lightness and chroma.
 fn base(kind: SurfaceKind) -> (f64, f64, f64, f64) {
     match kind {
@@ -118,8 +96,8 @@ mod tests {
             let d = |x: u8, y: u8| f64::from(x.abs_diff(y)).powi(2);
             (d(a.0, b.0) + d(a.1, b.1) + d(a.2, b.2)).sqrt()
         };
-        for (i, &a) in KINDS.iter().enumerate() {
-            for &b in &KINDS[..i] {
+        for (i, &a) in SurfaceKind::ALL.iter().enumerate() {
+            for &b in &SurfaceKind::ALL[..i] {
                 assert!(far(kind_colour(a), kind_colour(b)) > 60.0, "{a:?} {b:?}");
             }
             for n in 0..20 {

@@ -40,6 +40,28 @@ pub enum SurfaceKind {
 }
 
 impl SurfaceKind {
+    /// All kinds in their order, so that `ALL[kind as usize] == kind`.
+    pub const ALL: [Self; 6] = [
+        Self::Plane,
+        Self::Cylinder,
+        Self::Cone,
+        Self::Sphere,
+        Self::Torus,
+        Self::Other,
+    ];
+
+    /// Name, as in the drawing format.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Plane => "plane",
+            Self::Cylinder => "cylinder",
+            Self::Cone => "cone",
+            Self::Sphere => "sphere",
+            Self::Torus => "torus",
+            Self::Other => "other",
+        }
+    }
+
     /// The paper's three classes: 0 plane, 1 cylinder, 2 everything else.
     pub const fn paper_class(self) -> usize {
         match self {

@@ -43,7 +43,7 @@ pub struct Processed {
 pub fn postprocess(graph: &Graph, predictions: &[Prediction]) -> Processed {
     let mut done = Processed::default();
     let mut known: HashMap<Vec<usize>, usize> = HashMap::new();
-    let mut kinds: Vec<[usize; KINDS.len()]> = Vec::new();
+    let mut kinds: Vec<[usize; SurfaceKind::ALL.len()]> = Vec::new();
     for prediction in predictions {
         let coedges = &prediction.coedges;
         if !is_closed(graph, coedges) {
@@ -65,7 +65,7 @@ pub fn postprocess(graph: &Graph, predictions: &[Prediction]) -> Processed {
                     confidence: 0.0,
                     evidence: Evidence::default(),
                 });
-                kinds.push([0; KINDS.len()]);
+                kinds.push([0; SurfaceKind::ALL.len()]);
                 *entry.insert(done.faces.len() - 1)
             }
         };
@@ -74,7 +74,7 @@ pub fn postprocess(graph: &Graph, predictions: &[Prediction]) -> Processed {
     }
     for (face, kinds) in done.faces.iter_mut().zip(&kinds) {
         let most = kinds.iter().copied().max();
-        let winner = KINDS
+        let winner = SurfaceKind::ALL
             .into_iter()
             .find(|&kind| Some(kinds[kind as usize]) == most);
         face.kind = winner.unwrap_or(face.kind);
@@ -83,16 +83,6 @@ pub fn postprocess(graph: &Graph, predictions: &[Prediction]) -> Processed {
     }
     done
 }
-
-/// All kinds in their order, so that `KINDS[kind as usize] == kind`.
-const KINDS: [SurfaceKind; 6] = [
-    SurfaceKind::Plane,
-    SurfaceKind::Cylinder,
-    SurfaceKind::Cone,
-    SurfaceKind::Sphere,
-    SurfaceKind::Torus,
-    SurfaceKind::Other,
-];
 
 /// Whether the co-edges, in some order, are closed walks: each vertex is entered as often as left.
 fn is_closed(graph: &Graph, coedges: &[CoEdge]) -> bool {
@@ -233,14 +223,14 @@ mod tests {
             let graph = Graph::new(&drawing);
             let faces = from_truth(&drawing).unwrap().faces;
             let random = sequences.into_iter().map(|(indices, kind, votes)| Prediction {
-                kind: KINDS[kind],
+                kind: SurfaceKind::ALL[kind],
                 coedges: indices.into_iter().map(CoEdge::from_index).collect(),
                 votes,
             });
             let rotated = copies.into_iter().map(|(face, by, kind)| {
                 let mut coedges = faces[face].loops[0].clone();
                 coedges.rotate_left(by);
-                prediction(KINDS[kind], coedges)
+                prediction(SurfaceKind::ALL[kind], coedges)
             });
             let predictions: Vec<Prediction> = random.chain(rotated).collect();
             let once = postprocess(&graph, &predictions);

@@ -1,8 +1,8 @@
 """``python -m faceformer_training.rotation.train CONFIG.json [--resume]`` trains the model.
 
 The configuration is that of :class:`.config.TrainConfig`. The folder ``output`` gets ``curve.csv``
-and ``last.ckpt``, from which ``--resume`` goes on; ``network.export`` turns that into what the program
-loads. The same command runs on one CPU, one GPU, several GPUs or several machines, see the
+and ``last.ckpt``, from which ``--resume`` goes on; ``network.export`` turns that into what the
+program loads. The same command runs on one CPU, one GPU, several GPUs or several machines, see the
 configuration's ``accelerator``, ``devices``, ``nodes`` and ``precision``. The same seed gives the
 same batches and first weights whatever the device; sums are rounded as the device likes.
 """

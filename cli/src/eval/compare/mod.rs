@@ -25,28 +25,6 @@ const VOLUME: f64 = 0.01;
 /// Points closer to a line than this share of its length are on it.
 const FLAT: f64 = 1e-3;
 
-/// Surface kinds in the order of [`FaceCounts`].
-pub(super) const KINDS: [SurfaceKind; 6] = [
-    SurfaceKind::Plane,
-    SurfaceKind::Cylinder,
-    SurfaceKind::Cone,
-    SurfaceKind::Sphere,
-    SurfaceKind::Torus,
-    SurfaceKind::Other,
-];
-
-/// Name of a kind, as in the drawing format.
-pub(super) const fn name(kind: SurfaceKind) -> &'static str {
-    match kind {
-        SurfaceKind::Plane => "plane",
-        SurfaceKind::Cylinder => "cylinder",
-        SurfaceKind::Cone => "cone",
-        SurfaceKind::Sphere => "sphere",
-        SurfaceKind::Torus => "torus",
-        SurfaceKind::Other => "other",
-    }
-}
-
 /// How a valid solid compares with the true one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Compared {

@@ -5,7 +5,6 @@
 //! of them says which one is not.
 
 use super::group::Grouping;
-use super::shards::KINDS;
 use super::{LoopKinds, Triples};
 use crate::drawing::{CoEdge, Curve2, Drawing, Graph, SurfaceKind};
 use crate::identify::kinds::kinds_of;
@@ -19,7 +18,7 @@ const FLAT_BESIDE: f64 = 0.25;
 /// What is added to probabilities before they are multiplied, so that none forbids a kind.
 const DOUBT: f64 = 0.02;
 
-type Shares = [f64; KINDS.len()];
+type Shares = [f64; SurfaceKind::ALL.len()];
 
 /// How the loops of a rotation system look.
 pub(super) struct Looks {
@@ -50,7 +49,9 @@ impl Looks {
         };
         let shares = told.kinds(graph, triples, walks);
         let flat = |s: &Shares| {
-            let place = KINDS.iter().position(|k| *k == SurfaceKind::Plane);
+            let place = SurfaceKind::ALL
+                .iter()
+                .position(|k| *k == SurfaceKind::Plane);
             place.map_or(0.0, |p| s[p])
         };
         let twin: Vec<Option<usize>> = walks
@@ -95,7 +96,9 @@ impl Looks {
             let (&[only], Some(twin)) = (list.as_slice(), self.twin[list[0]]) else {
                 return own;
             };
-            let plane = KINDS.iter().position(|k| *k == SurfaceKind::Plane);
+            let plane = SurfaceKind::ALL
+                .iter()
+                .position(|k| *k == SurfaceKind::Plane);
             let flat = plane.map_or(0.0, |p| self.shares[only][p]);
             let curved = if alone(twin) {
                 // A disc has no thickness: one of the two is a cap.
@@ -131,7 +134,7 @@ impl Looks {
 /// The kind that all rows agree on best, but for some.
 fn likeliest(rows: &[&Shares], without: &[SurfaceKind]) -> SurfaceKind {
     let support = |k: usize| rows.iter().map(|r| (r[k] + DOUBT).ln()).sum::<f64>();
-    let kinds = KINDS.iter().enumerate();
+    let kinds = SurfaceKind::ALL.iter().enumerate();
     kinds
         .filter(|(_, kind)| !without.contains(kind))
         .max_by(|a, b| support(a.0).total_cmp(&support(b.0)))
@@ -143,7 +146,7 @@ mod tests {
     use super::*;
 
     fn shares(list: &[(SurfaceKind, f64)]) -> Shares {
-        KINDS.map(|k| list.iter().find(|l| l.0 == k).map_or(0.0, |l| l.1))
+        SurfaceKind::ALL.map(|k| list.iter().find(|l| l.0 == k).map_or(0.0, |l| l.1))
     }
 
     fn grouping(faces: &[&[usize]], round: &[bool]) -> Grouping {

@@ -1,8 +1,7 @@
 //! The interface between scoring and decoding.
 
 use super::Triples;
-use super::shards::KINDS;
-use crate::drawing::{CoEdge, Drawing, Graph};
+use crate::drawing::{CoEdge, Drawing, Graph, SurfaceKind};
 use crate::{Progress, Result};
 
 /// Says how likely every triple is to be part of a face.
@@ -47,11 +46,11 @@ impl From<Vec<f64>> for Scores {
 
 /// Tells which kind of surface a loop bounds.
 pub trait LoopKinds {
-    /// The probability of each of the [`KINDS`] for each loop, a closed walk.
+    /// The probability of each of the kinds for each loop, a closed walk.
     fn kinds(
         &self,
         graph: &Graph,
         triples: &Triples,
         loops: &[Vec<CoEdge>],
-    ) -> Vec<[f64; KINDS.len()]>;
+    ) -> Vec<[f64; SurfaceKind::ALL.len()]>;
 }

@@ -8,10 +8,11 @@
 
 use std::f64::consts::{PI, TAU};
 
-use glam::{DMat3, DQuat, DVec2, DVec3};
+use glam::{DMat3, DQuat, DVec3};
 
 use super::evidence::{CircleGroup, Evidence, Segment};
 use super::hypotheses::{Hypothesis, frames};
+use super::refine::aside;
 use super::{Axis, Directions, columns, towards_viewer};
 use crate::drawing::Drawing;
 use crate::lift::Camera;
@@ -182,19 +183,9 @@ fn refined(evidence: &Evidence, mut frame: DMat3) -> DMat3 {
             let Some(k) = best(|k| gain(evidence, s, frame.col(k), loose)) else {
                 continue;
             };
-            let axis = frame.col(k);
-            let drawn: DVec2 = axis.truncate();
-            let (unit, length) = (drawn.normalize(), drawn.length());
-            let across = unit.perp();
-            // d(axis) = w x axis; its part across the drawn direction, by w.
-            let slope = DVec3::new(
-                -across.y * axis.z,
-                across.x * axis.z,
-                across.y * axis.x - across.x * axis.y,
-            );
-            let slope = slope * (s.direction.dot(unit) / length);
+            let (residual, slope) = aside(s.direction, frame.col(k));
             let error = std::f64::consts::SQRT_2 * evidence.precision / s.length;
-            add(s.direction.perp_dot(unit), slope, error);
+            add(residual, slope, error);
         }
         for g in &evidence.circles {
             let Some(k) = best(|k| round_gain(g, frame.col(k), loose)) else {

@@ -112,6 +112,24 @@ pub(super) fn refine(evidence: &Evidence, start: Hypothesis) -> Option<(Hypothes
     Some((current, followers))
 }
 
+/// Sine of the angle from an axis, as it is drawn, to a drawn direction, and how it changes with a
+/// small rotation of the axis.
+pub(super) fn aside(direction: DVec2, axis: DVec3) -> (f64, DVec3) {
+    let drawn = axis.truncate();
+    let (unit, length) = (drawn.normalize(), drawn.length());
+    let across = unit.perp();
+    // d(axis) = w x axis; its part across the drawn direction, by w.
+    let slope = DVec3::new(
+        -across.y * axis.z,
+        across.x * axis.z,
+        across.y * axis.x - across.x * axis.y,
+    );
+    (
+        direction.perp_dot(unit),
+        slope * (direction.dot(unit) / length),
+    )
+}
+
 /// Covariance, and gradient of half the sum of squares, by a small rotation vector; `None` if the
 /// followers leave a rotation open.
 fn normal_equations(
@@ -129,17 +147,7 @@ fn normal_equations(
         let Some(axis) = i.map(|i| *frame * USUAL[i].direction) else {
             continue;
         };
-        let drawn = axis.truncate();
-        let (unit, length) = (drawn.normalize(), drawn.length());
-        let across = unit.perp();
-        // d(axis) = w x axis; its part across the drawn direction, by w.
-        let slope = DVec3::new(
-            -across.y * axis.z,
-            across.x * axis.z,
-            across.y * axis.x - across.x * axis.y,
-        );
-        let residual = c.direction.perp_dot(unit);
-        let slope = slope * (c.direction.dot(unit) / length);
+        let (residual, slope) = aside(c.direction, axis);
         add(residual, slope, c.error(evidence.precision));
     }
     for (g, k) in evidence.circles.iter().zip(&followers.circles) {

@@ -15,9 +15,8 @@ pub use file::{LIMIT, load, read};
 pub use network::{Config, Encoded, Network};
 
 use super::inputs::Inputs;
-use super::shards::KINDS;
 use super::{HandScorer, LoopKinds, Scores, TripleScorer, Triples};
-use crate::drawing::{CoEdge, Drawing, Graph};
+use crate::drawing::{CoEdge, Drawing, Graph, SurfaceKind};
 use crate::{Progress, Stage};
 
 /// Most edges that the model is asked about: the attention's tables grow with their square.
@@ -149,7 +148,7 @@ impl LoopKinds for Kinds {
         graph: &Graph,
         triples: &Triples,
         loops: &[Vec<CoEdge>],
-    ) -> Vec<[f64; KINDS.len()]> {
+    ) -> Vec<[f64; SurfaceKind::ALL.len()]> {
         let steps: Vec<Vec<(usize, usize)>> = loops
             .iter()
             .map(|walk| {
@@ -163,16 +162,19 @@ impl LoopKinds for Kinds {
             })
             .collect();
         let Ok(logits) = self.network.kinds(&self.encoded, &steps) else {
-            return vec![[1.0 / KINDS.len() as f64; KINDS.len()]; loops.len()];
+            return vec![
+                [1.0 / SurfaceKind::ALL.len() as f64; SurfaceKind::ALL.len()];
+                loops.len()
+            ];
         };
         logits.iter().map(|row| probabilities(row)).collect()
     }
 }
 
 /// Probabilities of what has these logits.
-fn probabilities(logits: &[f32]) -> [f64; KINDS.len()] {
+fn probabilities(logits: &[f32]) -> [f64; SurfaceKind::ALL.len()] {
     let largest = logits.iter().copied().fold(f32::NEG_INFINITY, f32::max);
-    let mut shares = [0.0; KINDS.len()];
+    let mut shares = [0.0; SurfaceKind::ALL.len()];
     for (share, &x) in shares.iter_mut().zip(logits) {
         *share = f64::from(x - largest).exp();
     }

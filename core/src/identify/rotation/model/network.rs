@@ -11,8 +11,9 @@ use candle_core::{D, Device, Result, Tensor};
 use candle_nn::{LayerNorm, Linear, Module, VarBuilder, layer_norm, linear, linear_no_bias, ops};
 use serde::{Deserialize, Serialize};
 
+use crate::drawing::SurfaceKind;
 use crate::identify::rotation::inputs::{CORNER, EDGE, Inputs, RELATIONS, TRIPLE};
-use crate::identify::rotation::shards::{FORMAT, KINDS};
+use crate::identify::rotation::shards::FORMAT;
 
 /// Added to variances, as PyTorch does by default.
 const EPSILON: f64 = 1e-5;
@@ -39,7 +40,7 @@ pub struct Config {
     pub triple: usize,
     /// Relations between edges, [`RELATIONS`].
     pub relations: usize,
-    /// Kinds of surfaces, [`KINDS`].
+    /// Kinds of surfaces, [`SurfaceKind::ALL`].
     pub kinds: usize,
 }
 
@@ -53,7 +54,7 @@ impl Config {
             self.relations,
             self.kinds,
         ];
-        inputs == [EDGE, CORNER, TRIPLE, RELATIONS, KINDS.len()]
+        inputs == [EDGE, CORNER, TRIPLE, RELATIONS, SurfaceKind::ALL.len()]
             && self.format == FORMAT
             && (1..=1024).contains(&self.width)
             && (1..=4096).contains(&self.hidden)

@@ -2,7 +2,7 @@
 
 use super::super::Triples;
 use super::super::orders::cyclic_orders;
-use crate::drawing::{CoEdge, Graph, SurfaceKind, Truth};
+use crate::drawing::{CoEdge, Graph, Truth};
 
 /// Degrees whose orders are listed. At lower ones given neighbours leave little to choose.
 const ORDERS: std::ops::RangeInclusive<usize> = 4..=5;
@@ -14,7 +14,7 @@ pub(super) struct Labels {
     pub(super) follows: Vec<u8>,
     /// Triples along each loop.
     pub(super) loops: Vec<Vec<u32>>,
-    /// Surface kind of each loop's face, place in [`KINDS`](super::KINDS).
+    /// Surface kind of each loop's face, place in [`SurfaceKind::ALL`].
     pub(super) kinds: Vec<u8>,
     /// For the vertices of degree 4 and 5 with true neighbours: for each of the `(d - 1)!`
     /// cyclic orders, the true one first, the `2 d` triples that it chooses.
@@ -46,7 +46,7 @@ impl Labels {
                     around.previous[next.index()] = Some(c.mate());
                 }
                 labels.loops.push(steps);
-                labels.kinds.push(kind_number(face.kind));
+                labels.kinds.push(face.kind as u8);
             }
         }
         if around.next.iter().any(Option::is_none) {
@@ -62,12 +62,6 @@ impl Labels {
         }
         Some(labels)
     }
-}
-
-/// Place of a surface kind in [`KINDS`](super::KINDS).
-fn kind_number(kind: SurfaceKind) -> u8 {
-    let place = super::KINDS.iter().position(|&k| k == kind);
-    place.unwrap_or(super::KINDS.len() - 1) as u8
 }
 
 /// The true rotation system: what follows a co-edge around its origin, and what it follows.
@@ -134,7 +128,7 @@ impl Around {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drawing::TruthFace;
+    use crate::drawing::{SurfaceKind, TruthFace};
     use crate::identify::rotation::{Field, samples};
 
     #[test]

@@ -15,7 +15,7 @@
 //! | `relations` | u16 `[sum of E^2]` | [`Inputs::relations`] |
 //! | `follows` | u8 `[T]` | whether the triple is in a true face |
 //! | `loop_steps`, `loop_start` | i32, `[L + 1]` | triples along each loop, from 0 in each drawing |
-//! | `loop_kinds` | u8 `[L]` | surface kind, place in [`KINDS`] |
+//! | `loop_kinds` | u8 `[L]` | surface kind, place in [`SurfaceKind::ALL`] |
 //! | `orders4`, `orders5` | i32 `[V, (d-1)!, 2 d]` | triples of each order at a vertex of that degree, the true one first |
 //! | `edge_start`, `corner_start`, `triple_start`, `loops_start`, `orders4_start`, `orders5_start` | i32 `[N + 1]` | where each drawing's rows begin |
 //!
@@ -32,19 +32,9 @@ use safetensors::tensor::{Dtype, TensorView, serialize_to_file};
 
 use super::Triples;
 use super::inputs::{CORNER, EDGE, Inputs, TRIPLE};
-use crate::drawing::{Drawing, Graph, SurfaceKind};
+use crate::drawing::{Drawing, Graph};
 pub use augment::Augment;
 use labels::Labels;
-
-/// Kinds that the model tells apart, in the order of its classes.
-pub const KINDS: [SurfaceKind; 6] = [
-    SurfaceKind::Plane,
-    SurfaceKind::Cylinder,
-    SurfaceKind::Cone,
-    SurfaceKind::Sphere,
-    SurfaceKind::Torus,
-    SurfaceKind::Other,
-];
 
 /// Version of the tables; a model is good for one.
 pub const FORMAT: u32 = 1;
