@@ -45,7 +45,7 @@ struct Plating {
   int pieces;
 };
 constexpr Plating kCoarse{200, 8, 40, 2, 1e-4, 30};
-constexpr Plating kFine{480, 20, 80, 3, 1e-5, 120};
+constexpr Plating kFine{280, 12, 56, 2, 1e-5, 60};
 constexpr int kPlateDegree = 3;
 constexpr int kApproximationDegree = 8;
 
