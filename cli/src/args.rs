@@ -250,8 +250,9 @@ pub(crate) struct FeaturesArgs {
 /// Arguments of `render`.
 #[derive(Debug, Args)]
 pub(crate) struct RenderArgs {
-    /// The drawing
-    pub(crate) drawing: String,
+    /// The drawing; with --mistakes there may be several
+    #[arg(required = true, value_name = "DRAWING")]
+    pub(crate) drawings: Vec<String>,
     #[command(flatten)]
     pub(crate) faces: FacesArgs,
     /// File for the picture: .svg or .png
@@ -263,12 +264,15 @@ pub(crate) struct RenderArgs {
     /// Text above the picture; the drawing's id without it
     #[arg(long, value_name = "TEXT")]
     pub(crate) title: Option<String>,
-    /// Width of the picture in pixels [default: 960, with --solid 1440]
+    /// Width of the picture in pixels [default: 960, with --solid 1440, with --mistakes 1280]
     #[arg(long, value_name = "PX", value_parser = clap::value_parser!(u32).range(160..=8192))]
     pub(crate) width: Option<u32>,
     /// Height of the picture in pixels; follows from the drawing without it
     #[arg(long, value_name = "PX", value_parser = clap::value_parser!(u32).range(160..=8192))]
     pub(crate) height: Option<u32>,
+    /// Compare with the truth: a small picture of each wrong loop, wrong type and missed face
+    #[arg(long, conflicts_with_all = ["solid", "labels"])]
+    pub(crate) mistakes: bool,
     /// Build the solid too, and show it from another side in a second panel
     #[arg(long)]
     pub(crate) solid: bool,

@@ -202,6 +202,41 @@ fn render_writes_svg_and_png_of_the_size_asked_for() {
 }
 
 #[test]
+fn render_shows_each_mistake_in_its_colour() {
+    let dir = output_dir("cli-render-mistakes");
+    let (faces, svg) = (dir.join("faces.json"), dir.join("mistakes.svg"));
+    let mut found = drawing_of_sample(BLOCK)["truth"]["faces"].clone();
+    let found = found.as_array_mut().unwrap();
+    found[3]["type"] = "torus".into();
+    let last = found.pop().unwrap();
+    found[4]["loops"]
+        .as_array_mut()
+        .unwrap()
+        .push(last["loops"][0].clone());
+    std::fs::write(&faces, serde_json::json!({ "faces": found }).to_string()).unwrap();
+    let (faces, out, block) = (text(&faces), text(&svg), of_sample(BLOCK));
+    let command = ["render", &block, "--mistakes", "--faces"];
+    faceformer([&command[..], &[&faces, "-o", &out]].concat()).ok();
+    let drawn = String::from_utf8(read(&svg)).unwrap();
+    for legend in [">wrong loops 1<", ">wrong type 1<", ">missed 2<"] {
+        assert!(drawn.contains(legend), "{legend}");
+    }
+    let patches = drawn.matches("fill-rule=\"evenodd\"").count();
+    assert_eq!(patches, 4, "one patch a mistake");
+    faceformer([&command[..], &["truth", &block, "-o", &out]].concat()).ok();
+    let drawn = String::from_utf8(read(&svg)).unwrap();
+    assert!(!drawn.contains("evenodd"), "the truth has no mistakes");
+    let several = ["render", &block, &block, "-o", &out];
+    let refused = faceformer(several);
+    assert_eq!(refused.status, 2);
+    assert!(
+        refused.stderr.contains("only with --mistakes"),
+        "{}",
+        refused.stderr
+    );
+}
+
+#[test]
 fn render_marks_edges_that_miss_a_face() {
     let dir = output_dir("cli-render-open");
     let (faces, svg) = (dir.join("faces.json"), dir.join("open.svg"));

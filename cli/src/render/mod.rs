@@ -1,7 +1,8 @@
-//! `faceformer render`: a picture of a drawing and its faces.
+//! `faceformer render`: a picture of a drawing and its faces, or of what is wrong in them.
 
 mod built;
 mod mesh;
+mod mistakes;
 mod owner;
 mod page;
 mod painter;
@@ -68,14 +69,11 @@ impl Target {
 pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let target = Target::of(&args.output)?;
     let output = Output::create(&args.output)?;
-    let drawing = usable(&args.drawing)?;
-    let found = FacesFrom::new(&args.faces).faces(&drawing)?;
-    tell(&found.notices);
-    let solid = args
-        .solid
-        .then(|| Built::new(&drawing, &found, args.flip, &output))
-        .transpose()?;
-    let svg = picture(args, &drawing, &found, solid.as_ref()).to_svg();
+    let svg = if args.mistakes {
+        mistakes::picture(args)?
+    } else {
+        faces(args, &output)?
+    };
     match target {
         Target::Svg => output.write(svg.as_bytes())?,
         Target::Png => {
@@ -87,6 +85,23 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         }
     }
     output.commit()
+}
+
+/// The picture of one drawing with its faces, as SVG.
+fn faces(args: &RenderArgs, output: &Output) -> Result<String, Failure> {
+    let [name] = args.drawings.as_slice() else {
+        return Err(Failure::Usage(
+            "one picture shows one drawing; several only with --mistakes".to_owned(),
+        ));
+    };
+    let drawing = usable(name)?;
+    let found = FacesFrom::new(&args.faces).faces(&drawing)?;
+    tell(&found.notices);
+    let solid = args
+        .solid
+        .then(|| Built::new(&drawing, &found, args.flip, output))
+        .transpose()?;
+    Ok(picture(args, &drawing, &found, solid.as_ref()).to_svg())
 }
 
 /// The whole page: title, panels, legend.
@@ -150,7 +165,7 @@ fn colours(found: &Identification) -> Vec<Rgb> {
 fn draw_title(page: &mut Page, args: &RenderArgs, drawing: &Drawing, found: &Identification) {
     let title = match &args.title {
         Some(title) => title,
-        None if drawing.id.is_empty() => &args.drawing,
+        None if drawing.id.is_empty() => &args.drawings[0],
         None => &drawing.id,
     };
     let below = format!(

@@ -24,6 +24,14 @@ impl Rgb {
     }
 }
 
+/// A predicted face with wrong loops; the three as in the paper's figure, and in the set of Okabe and
+/// Ito.
+pub(crate) const WRONG: Rgb = Rgb(0, 114, 178);
+/// A predicted face of the wrong type.
+pub(crate) const MISTYPED: Rgb = Rgb(0, 158, 115);
+/// A true face that was not found.
+pub(crate) const MISSED: Rgb = Rgb(213, 60, 0);
+
 /// Hue in degrees, half the hue range of the kind's shades, lightness and chroma.
 fn base(kind: SurfaceKind) -> (f64, f64, f64, f64) {
     match kind {

@@ -11,10 +11,12 @@
 //! - `exact` asks for the right sets of edges, no more and no fewer; types do not count in it.
 
 mod calibration;
+mod mistakes;
 mod score;
 mod summary;
 
 pub use calibration::{BINS, Bin, Bins};
+pub use mistakes::Mistakes;
 pub use score::DrawingScore;
 pub use summary::{Summary, median};
 
