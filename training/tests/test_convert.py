@@ -149,7 +149,7 @@ def test_the_converted_network_gives_the_same_logits(released, tmp_path):
     with torch.no_grad():
         expected = network(points, sequence)
         encoded = ours.encode(points[None], torch.zeros(1, 12, dtype=torch.bool))
-        logits = ours.decode(encoded, sequence[None, None])[0, 0]
+        logits = ours.decode_sequences(encoded, sequence[None, None])[0, 0]
     assert torch.isinf(logits[:, 0]).all()
     torch.testing.assert_close(logits[:, 1:], expected[:, 1:], atol=1e-4, rtol=1e-4)
 

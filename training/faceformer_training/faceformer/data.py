@@ -94,11 +94,18 @@ class Shard:
 
 @dataclasses.dataclass
 class Batch:
-    """B drawings side by side, padded to N tokens, and S sequences of T + 1 tokens of each."""
+    """B drawings side by side, padded to N tokens, and their sequences, one behind another.
+
+    Most faces have four co-edges and few have many: side by side, half of the tokens would be
+    padding. T is the number of tokens of all sequences of a drawing, padded.
+    """
 
     points: torch.Tensor  # [B, N, 2 points]
     absent: torch.Tensor  # [B, N], true where there is no token
-    sequences: torch.Tensor  # [B, S, T + 1], PAD where there is none
+    tokens: torch.Tensor  # [B, T], all but the last of each sequence
+    targets: torch.Tensor  # [B, T], what follows each, PAD where there is no token
+    steps: torch.Tensor  # [B, T], its place in its sequence
+    parts: torch.Tensor  # [B, T], the number of its sequence in the drawing
 
     def to(self, device: torch.device) -> Batch:
         fields = dataclasses.fields(self)
@@ -122,16 +129,22 @@ def collate(
             sequences = [sequences[k] for k in picks]
         chosen.append(sequences)
     tokens = max(len(p) for p in points)
-    length = max(len(s) for sequences in chosen for s in sequences)
-    most = max(len(sequences) for sequences in chosen)
     padded = np.zeros((len(places), tokens, 2 * points[0].shape[1]), np.float32)
     absent = np.ones((len(places), tokens), bool)
-    targets = np.full((len(places), most, length), PAD, np.int64)
+    length = max(sum(len(s) - 1 for s in sequences) for sequences in chosen)
+    # What is no token begins with a type, as good as any: it has no target.
+    rows = np.zeros((4, len(places), length), np.int64)
+    rows[0] = TOKENS - 1
+    rows[1] = PAD
+    rows[3] = -1
     for b, (own, sequences) in enumerate(zip(points, chosen, strict=True)):
         padded[b, : len(own)] = own.reshape(len(own), -1)
         absent[b, : len(own)] = False
+        end = 0
         for s, sequence in enumerate(sequences):
-            targets[b, s, : len(sequence)] = sequence
-    # A sequence that is none begins with a type, as good as any token: it has no target.
-    targets[targets[..., 0] == PAD, 0] = TOKENS - 1
-    return Batch(*(torch.from_numpy(x) for x in (padded, absent, targets)))
+            start, end = end, end + len(sequence) - 1
+            rows[0, b, start:end] = sequence[:-1]
+            rows[1, b, start:end] = sequence[1:]
+            rows[2, b, start:end] = np.arange(end - start)
+            rows[3, b, start:end] = s
+    return Batch(*(torch.from_numpy(x) for x in (padded, absent, *rows)))

@@ -47,7 +47,7 @@ def greedy(model: PointerModel, points: torch.Tensor, causal: bool) -> list[Deco
         if not alive:
             break
         sequences = torch.tensor([[d.tokens for d in alive]])
-        logits = model.decode(encoded, sequences, causal)[0, :, -1]
+        logits = model.decode_sequences(encoded, sequences, causal)[0, :, -1]
         chances = logits.log_softmax(-1)
         top = chances.topk(2, -1)
         going_on = []

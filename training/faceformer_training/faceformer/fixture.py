@@ -29,7 +29,7 @@ def chances(model: PointerModel, encoded, sequences: torch.Tensor, causal: bool)
     causal mask a prefix is seen as a whole."""
     steps = []
     for t in range(1, sequences.shape[1]):
-        logits = model.decode(encoded, sequences[None, :, :t], causal)[0, :, -1]
+        logits = model.decode_sequences(encoded, sequences[None, :, :t], causal)[0, :, -1]
         steps.append(logits.log_softmax(-1).gather(1, sequences[:, t : t + 1]))
     return torch.cat(steps, 1)
 

@@ -42,20 +42,27 @@ class EncoderLayer(nn.Module):
         x = F.linear(x, qkv.weight[k * w : (k + 1) * w], qkv.bias[k * w : (k + 1) * w])
         return x.unflatten(-1, (self.heads, -1)).transpose(-2, -3)
 
-    def attend(self, out: nn.Linear, q, k, v, mask=None, causal=False) -> torch.Tensor:
+    def attend(self, out: nn.Linear, q, k, v, mask) -> torch.Tensor:
         drop = self.dropout if self.training else 0.0
-        mixed = F.scaled_dot_product_attention(q, k, v, mask, drop, is_causal=causal)
+        attention = F.scaled_dot_product_attention
+        if q.device.type == "cpu":
+            # In half precision its backward pass is many times slower on processors without AMX.
+            with torch.autocast("cpu", enabled=False):
+                q, k, v = (x.float() for x in (q, k, v))
+                mixed = attention(q, k, v, mask, drop)
+        else:
+            mixed = attention(q, k, v, mask, drop)
         return self.drop(out(mixed.transpose(-2, -3).flatten(-2)))
 
     def drop(self, x: torch.Tensor) -> torch.Tensor:
         return F.dropout(x, self.dropout, self.training)
 
-    def look_at_itself(self, x, position, mask=None, causal=False) -> torch.Tensor:
+    def look_at_itself(self, x, position, mask) -> torch.Tensor:
         seen = self.self_norm(x)
         placed = seen + position
         q, k = (self.part(self.self_qkv, i, placed) for i in range(2))
         v = self.part(self.self_qkv, 2, seen)
-        return x + self.attend(self.self_out, q, k, v, mask, causal)
+        return x + self.attend(self.self_out, q, k, v, mask)
 
     def feed(self, x: torch.Tensor) -> torch.Tensor:
         hidden = self.drop(F.relu(self.up(self.hidden_norm(x))))
@@ -67,7 +74,7 @@ class EncoderLayer(nn.Module):
 
 
 class DecoderLayer(EncoderLayer):
-    """Attention inside a sequence, then to the drawing; ``[B, S, T, width]``.
+    """Attention inside a sequence, then to the drawing; ``[B, T, width]``.
 
     All sequences of a drawing ask the same memory, whose keys and values are made once.
     """
@@ -76,16 +83,15 @@ class DecoderLayer(EncoderLayer):
         super().__init__(config, dropout)
         self.add_attention("cross", config.width)
 
-    def forward(self, x, position, memory, memory_position, mask, causal) -> torch.Tensor:
-        b, s, t, width = x.shape
-        x = self.look_at_itself(x.flatten(0, 1), position, causal=causal)
-        x = x.view(b, s, t, width)
-        placed = self.cross_norm(x) + position
-        q = self.part(self.cross_qkv, 0, placed.flatten(1, 2))
-        k = self.part(self.cross_qkv, 1, memory + memory_position)
-        v = self.part(self.cross_qkv, 2, memory)
-        seen = self.attend(self.cross_out, q, k, v, mask)
-        return self.feed(x + seen.view(b, s, t, width))
+    def remember(self, memory, position) -> tuple[torch.Tensor, torch.Tensor]:
+        """Keys and values of the memory, by heads."""
+        return self.part(self.cross_qkv, 1, memory + position), self.part(self.cross_qkv, 2, memory)
+
+    def forward(self, x, position, kept, own_mask, mask) -> torch.Tensor:
+        """``kept`` is what :meth:`remember` gave; masks are true where a token may be looked at."""
+        x = self.look_at_itself(x, position, own_mask)
+        q = self.part(self.cross_qkv, 0, self.cross_norm(x) + position)
+        return self.feed(x + self.attend(self.cross_out, q, *kept, mask))
 
 
 class PointerModel(nn.Module):
@@ -114,8 +120,8 @@ class PointerModel(nn.Module):
                 nn.init.xavier_uniform_(weight)
 
     def encode(self, points: torch.Tensor, absent: torch.Tensor):
-        """Memory ``[B, TOKENS + N, width]``, its positions ``[TOKENS + N, width]`` and where it may
-        be looked at ``[B, TOKENS + N]``; see :class:`.data.Batch` for the inputs."""
+        """Memory ``[B, TOKENS + N, width]``, its keys and values in each layer of the decoder, and
+        where it may be looked at ``[B, TOKENS + N]``; see :class:`.data.Batch` for the inputs."""
         embedded = self.embed_out(F.relu(self.embed(points)))
         special = self.token.weight.to(embedded.dtype).expand(len(points), -1, -1)
         x = torch.cat([special, embedded], 1)
@@ -123,28 +129,41 @@ class PointerModel(nn.Module):
         position = self.position.weight[: x.shape[1]]
         for layer in self.encoder:
             x = layer(x, position, present[:, None, None])
-        return self.encoder_norm(x), position, present
+        memory = self.encoder_norm(x)
+        kept = [layer.remember(memory, position) for layer in self.decoder]
+        return memory, kept, present
 
-    def decode(self, encoded, sequences: torch.Tensor, causal: bool = True) -> torch.Tensor:
-        """Logits ``[B, S, T, TOKENS + N]`` of what follows each token of ``[B, S, T]``."""
-        memory, memory_position, present = encoded
-        b, s, t = sequences.shape
-        picks = sequences.flatten(1)[..., None].expand(-1, -1, memory.shape[-1])
-        x = memory.gather(1, picks).view(b, s, t, -1)
-        position = self.step.weight[:t]
-        mask = present[:, None, None]
-        for layer in self.decoder:
-            x = layer(x, position, memory, memory_position, mask, causal)
+    def decode(self, encoded, tokens, steps, parts, causal: bool = True) -> torch.Tensor:
+        """Logits ``[B, T, TOKENS + N]`` of what follows each token; see :class:`.data.Batch`.
+
+        A token sees those of its sequence, with ``causal`` only those before it and itself.
+        """
+        memory, kept, present = encoded
+        x = memory.gather(1, tokens[..., None].expand(-1, -1, memory.shape[-1]))
+        own_mask = parts[:, :, None] == parts[:, None, :]
+        if causal:
+            own_mask = own_mask.tril()
+        position = self.step(steps)
+        for layer, own in zip(self.decoder, kept, strict=True):
+            x = layer(x, position, own, own_mask[:, None], present[:, None, None])
         pointers = self.pointer(self.decoder_norm(x))
-        logits = torch.einsum("bstw,bnw->bstn", pointers, memory).float()
+        logits = (pointers @ memory.mT).float()
         allowed = present.clone()
         # Neither padding nor SOS ever follows.
         allowed[:, PAD] = False
         if self.config.variant != "faceformer":
             allowed[:, SOS] = False
-        return logits.masked_fill(~allowed[:, None, None], -torch.inf)
+        return logits.masked_fill(~allowed[:, None], -torch.inf)
+
+    def decode_sequences(self, encoded, sequences, causal: bool = True) -> torch.Tensor:
+        """Logits ``[B, S, T, TOKENS + N]`` of what follows each token of ``[B, S, T]``."""
+        b, s, t = sequences.shape
+        steps = torch.arange(t).repeat(b, s)
+        parts = torch.arange(s).repeat_interleave(t).expand(b, -1)
+        logits = self.decode(encoded, sequences.flatten(1), steps, parts, causal)
+        return logits.unflatten(1, (s, t))
 
     def forward(self, batch: Batch) -> torch.Tensor:
-        """Logits of every token of the sequences but the first, ``[B, S, T, TOKENS + N]``."""
+        """Logits of what follows each token of the sequences, ``[B, T, TOKENS + N]``."""
         encoded = self.encode(batch.points, batch.absent)
-        return self.decode(encoded, batch.sequences[..., :-1])
+        return self.decode(encoded, batch.tokens, batch.steps, batch.parts)

@@ -31,15 +31,18 @@ def losses(model: torch.nn.Module, batch: Batch) -> dict[str, torch.Tensor]:
     A sequence all of whose tokens are the likeliest ones is what greedy decoding gives.
     """
     logits = model(batch)
-    targets = batch.sequences[..., 1:]
-    loss = F.cross_entropy(logits.flatten(0, 2), targets.flatten(), ignore_index=PAD)
-    there = targets != PAD
-    right = (logits.argmax(-1) == targets) | ~there
-    sequences = there.any(-1)
+    there = batch.targets != PAD
+    loss = F.cross_entropy(logits.flatten(0, 1), batch.targets.flatten(), ignore_index=PAD)
+    wrong = (logits.argmax(-1) != batch.targets) & there
+    # Tokens of each sequence, and the wrong ones among them; what is no token counts as 0.
+    parts = batch.parts.clamp(min=0)
+    sequences = parts.new_zeros(len(parts), int(parts.max()) + 1)
+    lengths = sequences.scatter_add(1, parts, there.long())
+    mistakes = sequences.scatter_add(1, parts, wrong.long())
     return {
         "loss": loss,
-        "tokens_right": (right & there).sum() / there.sum(),
-        "sequences_right": (right.all(-1) & sequences).sum() / sequences.sum(),
+        "tokens_right": 1 - wrong.sum() / there.sum(),
+        "sequences_right": 1 - (mistakes > 0).sum() / (lengths > 0).sum(),
     }
 
 
