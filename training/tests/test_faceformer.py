@@ -14,7 +14,7 @@ torch = pytest.importorskip("torch")
 pytest.importorskip("lightning_fabric")
 pytest.importorskip("safetensors")
 
-from resuming import check_resumed_equals_unbroken  # noqa: E402
+from resuming import averages, check_resumed_equals_unbroken  # noqa: E402
 
 from faceformer_training.faceformer.config import (  # noqa: E402
     EOS,
@@ -237,12 +237,17 @@ def test_training_learns_is_reproducible_and_resumes(config, tmp_path):
 
 def test_the_program_runs_what_is_exported(config, tmp_path):
     config.steps = 1
+    config.average = 0
     last = train(config, resume=False)
     model = tmp_path / "m.safetensors"
     module = "faceformer_training.network.export"
     subprocess.run([sys.executable, "-m", module, last, model], check=True, env=environment())
     described = json.loads(model.with_suffix(".json").read_text())
     assert described["model"]["variant"] == config.variant
+    config.initial, config.steps, config.learning_rate = str(model), 2, 0.0
+    begun = averages(train(config, resume=False))
+    for name, value in averages(last).items():
+        torch.testing.assert_close(begun[name], value, atol=1e-3, rtol=1e-3)
     corpus = ROOT / "tests/corpus/sample.jsonl.zst"
     command = [PROGRAM, "eval", corpus, "--limit", "3", "--json"]
     command += ["--engine", config.variant, "--model", model, "--failures", tmp_path / "failures"]

@@ -23,6 +23,8 @@ class RunConfig:
     output: str = ""
     # Shards of other solids, on which the curve is measured; none, no measurement.
     validation: list[str] = dataclasses.field(default_factory=list)
+    # Weights to begin with, as `network.export` wrote them for the same network; none, random ones.
+    initial: str = ""
     preset: str = "small"
     # Added to the preset, for instance {"width": 112}.
     model: dict[str, Any] = dataclasses.field(default_factory=dict)

@@ -13,6 +13,7 @@ from typing import Any, Protocol
 
 import torch
 from lightning_fabric import Fabric
+from safetensors.torch import load_file
 from tqdm import tqdm
 
 from .batches import Source, prefetched
@@ -68,6 +69,10 @@ def run(task: Task, resume: bool, stop: int | None = None) -> Path:
     if fabric.is_global_zero:
         output.mkdir(parents=True, exist_ok=True)
     model, average = task.models()
+    if config.initial:
+        # Names and shapes must agree; `load_state_dict` says which do not.
+        weights = load_file(config.initial)
+        model.load_state_dict({name: weight.float() for name, weight in weights.items()})
     average.load_state_dict(model.state_dict())
     model, optimizer = fabric.setup(model, task.optimizer(model))
     average = fabric.to_device(average)
