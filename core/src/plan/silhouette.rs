@@ -66,10 +66,19 @@ pub(super) fn plane_of(surface: &Support, ends: [DVec3; 2], view: &View) -> Opti
             let normal = axis.cross(out[0] + out[1]).try_normalize()?;
             Some(Support::Plane { origin, normal })
         }
-        Support::Sphere { center, .. } if view.is_parallel() => Some(Support::Plane {
-            origin: center,
-            normal: view.toward(center),
-        }),
+        // The polar plane of the viewer, who is at the origin or infinitely far away.
+        Support::Sphere { center, radius } => {
+            let toward = view.toward(center);
+            let nearer = if view.is_parallel() {
+                0.0
+            } else {
+                radius * radius / center.length()
+            };
+            Some(Support::Plane {
+                origin: center + toward * nearer,
+                normal: toward,
+            })
+        }
         _ => None,
     }
 }

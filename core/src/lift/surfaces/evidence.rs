@@ -4,10 +4,10 @@ use glam::{DVec2, DVec3};
 
 use super::flat::best_plane;
 use super::ring::Ring;
-use crate::drawing::{Curve2, Drawing};
-use crate::lift::Surface;
+use crate::drawing::Curve2;
 use crate::lift::heights::Heights;
 use crate::lift::sheet::Sheet;
+use crate::lift::{Camera, Surface};
 
 /// Points of an edge may be this far off a circle, relative to the drawing's size.
 const OFF_RING: f64 = 2e-4;
@@ -26,17 +26,42 @@ pub(super) struct Bound {
     pub(super) beside: Surface,
 }
 
+/// A line of sight.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Sight {
+    pub(super) from: DVec3,
+    /// Unit.
+    pub(super) direction: DVec3,
+}
+
+impl Sight {
+    fn new(camera: &Camera, p: DVec2) -> Self {
+        let (from, ray) = camera.ray(p);
+        Self {
+            from,
+            direction: ray.normalize(),
+        }
+    }
+
+    /// Distance of a point from the line.
+    pub(super) fn distance(&self, p: DVec3) -> f64 {
+        (p - self.from)
+            .reject_from_normalized(self.direction)
+            .length()
+    }
+}
+
 /// What is known of the boundary of a surface.
 #[derive(Debug, Clone)]
 pub(super) struct Evidence {
     /// Vertices of the surface.
     pub(super) vertices: Vec<DVec3>,
     pub(super) bounds: Vec<Bound>,
-    /// Drawn points of the outlines: lines of sight that touch the surface.
-    pub(super) outlines: Vec<DVec2>,
-    /// Vertices on outlines, where the surface is seen edge-on.
-    pub(super) outline_ends: Vec<DVec3>,
-    /// Circles that outlines are drawn as, centre and radius: of a sphere.
+    /// Lines of sight to the drawn points of the outlines: they touch the surface.
+    pub(super) outlines: Vec<Sight>,
+    /// Vertices on outlines, where the surface is seen edge-on, with their lines of sight.
+    pub(super) outline_ends: Vec<(DVec3, Sight)>,
+    /// Circles that outlines are drawn as, centre and radius: of a sphere in a parallel projection.
     pub(super) discs: Vec<(DVec2, f64)>,
     /// Axes of the drawing.
     pub(super) directions: Vec<DVec3>,
@@ -98,12 +123,13 @@ impl Evidence {
 
     fn add_outline(&mut self, sheet: &Sheet<'_>, heights: &Heights, edge: usize) {
         let e = &sheet.drawing.edges[edge];
+        let sight = |p: DVec2| Sight::new(sheet.camera(), p);
         self.outlines
-            .extend(thinned(&e.points).map(|i| e.points[i]));
+            .extend(thinned(&e.points).map(|i| sight(e.points[i])));
         let ends = e.v.into_iter().filter(|&v| heights.known[v]);
-        self.outline_ends
-            .extend(ends.map(|v| vertex(sheet, heights, v)));
-        if let Curve2::Ellipse(arc) = &e.curve {
+        let end = |v: usize| (vertex(sheet, heights, v), sight(sheet.drawing.vertices[v]));
+        self.outline_ends.extend(ends.map(end));
+        if let (Curve2::Ellipse(arc), true) = (&e.curve, sheet.camera().is_parallel()) {
             self.discs.push((arc.center, arc.major.length()));
         }
     }
@@ -141,15 +167,12 @@ fn bound(sheet: &Sheet<'_>, heights: &Heights, edge: usize, beside: Surface) -> 
         });
     }
     let drawn: Vec<DVec2> = thinned(&e.points).map(|i| e.points[i]).collect();
-    let on_plane = |normal: DVec3| -> Vec<DVec3> {
-        let depth = |p: &DVec2| {
-            let d = *p - ends[0].truncate();
-            ends[0].z - d.dot(normal.truncate()) / normal.z
-        };
-        drawn.iter().map(|p| p.extend(depth(p))).collect()
-    };
     let planar = |normal: DVec3| {
-        let points = on_plane(normal);
+        let place = |p: &DVec2| {
+            let (from, ray) = sheet.camera().ray(*p);
+            from + ray * (normal.dot(ends[0] - from) / normal.dot(ray))
+        };
+        let points: Vec<DVec3> = drawn.iter().map(place).collect();
         let ring = Ring::through(&points, Some(normal), tolerance);
         Bound {
             points,
@@ -160,15 +183,18 @@ fn bound(sheet: &Sheet<'_>, heights: &Heights, edge: usize, beside: Surface) -> 
     if let Some((k, _)) = sheet.circles[edge] {
         return Some(planar(sheet.axis(k)));
     }
+    let sight = Sight::new(sheet.camera(), sheet.drawing.vertices[e.v[0]]);
     match beside {
-        Surface::Plane { normal, .. } if normal.z.abs() > 0.02 => Some(planar(normal)),
+        Surface::Plane { normal, .. } if normal.dot(sight.direction).abs() > 0.02 => {
+            Some(planar(normal))
+        }
         Surface::Plane { .. } => None,
-        Surface::Unknown => free_circle(sheet.drawing, edge, ends, sheet.size).map(planar),
+        Surface::Unknown => free_circle(sheet, edge, ends).map(planar),
         _ => {
-            if let Some(normal) = free_circle(sheet.drawing, edge, ends, sheet.size) {
+            if let Some(normal) = free_circle(sheet, edge, ends) {
                 return Some(planar(normal));
             }
-            let points = on_surface(&beside, &drawn, ends)?;
+            let points = on_surface(sheet.camera(), &beside, &drawn, ends)?;
             let normal = best_plane(&points).map(|p| p.1);
             let ring = normal.and_then(|n| Ring::through(&points, Some(n), tolerance));
             Some(Bound {
@@ -180,15 +206,17 @@ fn bound(sheet: &Sheet<'_>, heights: &Heights, edge: usize, beside: Surface) -> 
     }
 }
 
-/// Normal of the circle that an edge is drawn as, if the depths of its ends tell which of the two.
-fn free_circle(drawing: &Drawing, edge: usize, ends: [DVec3; 2], size: f64) -> Option<DVec3> {
+/// Normal of the circle that an edge is drawn as in a parallel projection, if the depths of its ends
+/// tell which of the two.
+fn free_circle(sheet: &Sheet<'_>, edge: usize, ends: [DVec3; 2]) -> Option<DVec3> {
     /// Relative uncertainty of the axes up to which an ellipse tells its plane.
     const UNCERTAIN: f64 = 2e-3;
-    let Curve2::Ellipse(arc) = &drawing.edges[edge].curve else {
+    let Curve2::Ellipse(arc) = &sheet.drawing.edges[edge].curve else {
         return None;
     };
     let chord = ends[1] - ends[0];
-    if arc.uncertainty > UNCERTAIN || arc.ratio > 0.999 || chord.length() < 1e-3 * size {
+    let unclear = arc.uncertainty > UNCERTAIN || arc.ratio > 0.999;
+    if unclear || chord.length() < 1e-3 * sheet.size || !sheet.camera().is_parallel() {
         return None;
     }
     let slant = (1.0 - arc.ratio * arc.ratio).sqrt();
@@ -200,18 +228,30 @@ fn free_circle(drawing: &Drawing, edge: usize, ends: [DVec3; 2], size: f64) -> O
 }
 
 /// Drawn points lifted onto a surface, such that the curve runs on smoothly from its first end.
-fn on_surface(surface: &Surface, drawn: &[DVec2], ends: [DVec3; 2]) -> Option<Vec<DVec3>> {
+fn on_surface(
+    camera: &Camera,
+    surface: &Surface,
+    drawn: &[DVec2],
+    ends: [DVec3; 2],
+) -> Option<Vec<DVec3>> {
+    let along = |p: DVec2, end: DVec3| {
+        let (from, ray) = camera.ray(p);
+        (end - from).dot(ray) / ray.length_squared()
+    };
     let mut points = vec![ends[0]];
+    let mut places = vec![along(drawn[0], ends[0])];
     for p in &drawn[1..drawn.len() - 1] {
-        let expected = match points[..] {
-            [.., a, b] => 2.0 * b.z - a.z,
-            _ => ends[0].z,
+        let expected = match places[..] {
+            [.., a, b] => 2.0 * b - a,
+            _ => places[0],
         };
-        let z = surface
-            .crossings(p.extend(0.0), DVec3::Z)
+        let (from, ray) = camera.ray(*p);
+        let t = surface
+            .crossings(from, ray)
             .into_iter()
             .min_by(|a, b| (a - expected).abs().total_cmp(&(b - expected).abs()))?;
-        points.push(p.extend(z));
+        points.push(from + ray * t);
+        places.push(t);
     }
     // A curve that ends at another depth has gone astray.
     let [.., before, last] = points[..] else {

@@ -92,15 +92,13 @@ pub(super) fn stand_in(evidence: &Evidence, candidates: Vec<Surface>) -> Option<
 pub(super) fn residuals(evidence: &Evidence, surface: &Surface, out: &mut Vec<f64>) {
     out.clear();
     out.extend(evidence.points().map(|p| surface.distance(p)));
-    let sight = |i: usize| evidence.outlines[i].extend(0.0);
+    let outlines = evidence.outlines.iter();
     match *surface {
         Surface::Torus { .. } => {
-            let all = 0..evidence.outlines.len();
-            out.extend(all.map(|i| touching_gap(surface, sight(i), DVec3::Z)));
+            out.extend(outlines.map(|line| touching_gap(surface, line.from, line.direction)));
         }
         Surface::Sphere { center, radius } => {
-            let off = |p: &glam::DVec2| p.distance(center.truncate()) - radius;
-            out.extend(evidence.outlines.iter().map(off));
+            out.extend(outlines.map(|line| line.distance(center) - radius));
         }
         // The outlines of others are straight, and their ends say it all.
         _ => {}

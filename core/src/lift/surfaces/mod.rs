@@ -35,8 +35,7 @@ const ROUNDS: [f64; 4] = [2e-5, 1e-4, 3e-4, 3e-4];
 /// A surface may be as far off as this many errors of a drawn point in any case.
 const ERRORS: f64 = 20.0;
 
-/// The surface of every face, as far as known depths tell; in a central projection of planes and
-/// cylinders only, as the others are found from lines of sight that are parallel.
+/// The surface of every face, as far as known depths tell.
 pub(super) fn surfaces(sheet: &Sheet<'_>, heights: &Heights) -> Vec<Surface> {
     surfaces_of(sheet, heights, |_| true)
 }
@@ -59,9 +58,6 @@ pub(super) fn surfaces_of(
             found.unwrap_or(Surface::Unknown)
         })
         .collect();
-    if !sheet.camera().is_parallel() {
-        return known;
-    }
     let mut wholes = wholes::surfaces(sheet);
     wholes.retain(|whole| whole.iter().any(|&f| asked(f)));
     for tolerance in ROUNDS {

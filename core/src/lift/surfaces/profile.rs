@@ -85,10 +85,11 @@ pub(super) fn tori(evidence: &Evidence, axis: &Axis) -> Vec<Surface> {
 /// Points of the profile with the surface's unit normal there, up to its sign.
 fn normals(evidence: &Evidence, axis: &Axis) -> Vec<(DVec2, DVec2)> {
     let mut found = Vec::new();
-    for p in &evidence.outline_ends {
+    for (p, sight) in &evidence.outline_ends {
         if let Some(out) = axis.outwards(*p) {
             // In the plane of out and axis, and at right angles to the view.
-            let normal = DVec2::new(axis.direction.z, -out.z).normalize_or_zero();
+            let view = sight.direction;
+            let normal = DVec2::new(axis.direction.dot(view), -out.dot(view)).normalize_or_zero();
             found.push((DVec2::from(axis.profile(*p)), normal));
         }
     }

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::evidence::Evidence;
+use super::flat::best_plane;
 use super::refine::solve;
 use crate::lift::Surface;
 
@@ -11,7 +12,7 @@ use crate::lift::Surface;
 pub(super) fn spheres(evidence: &Evidence) -> Vec<Surface> {
     let mut found = Vec::new();
     // The outline is seen as a circle around the centre, at the centre's depth.
-    let depths: Vec<f64> = evidence.outline_ends.iter().map(|p| p.z).collect();
+    let depths: Vec<f64> = evidence.outline_ends.iter().map(|end| end.0.z).collect();
     for &(center, radius) in evidence.discs.iter().filter(|_| !depths.is_empty()) {
         let mean = depths.iter().sum::<f64>() / depths.len() as f64;
         found.push((center.extend(mean), radius));
@@ -30,6 +31,7 @@ pub(super) fn spheres(evidence: &Evidence) -> Vec<Surface> {
             }
         }
     }
+    found.extend(in_cone(evidence));
     found.extend(through(evidence));
     for (ring, bound) in evidence.rings() {
         for p in bound.points.iter().take(1) {
@@ -49,6 +51,39 @@ pub(super) fn spheres(evidence: &Evidence) -> Vec<Surface> {
         .into_iter()
         .filter(|(center, radius)| center.is_finite() && usable(*radius))
         .map(|(center, radius)| Surface::Sphere { center, radius })
+        .collect()
+}
+
+/// In a central projection the lines of sight that touch a sphere are a circular cone around the one
+/// through its centre, which is as far along it as a known point of the sphere says.
+fn in_cone(evidence: &Evidence) -> Vec<(DVec3, f64)> {
+    let lines = &evidence.outlines;
+    let directions: Vec<DVec3> = lines.iter().map(|line| line.direction).collect();
+    if lines.len() < 4 || !evidence.discs.is_empty() {
+        return Vec::new();
+    }
+    // Unit vectors at one angle from an axis are on a plane across it.
+    let Some((middle, axis)) = best_plane(&directions) else {
+        return Vec::new();
+    };
+    let cosine = axis.dot(middle);
+    let (axis, cosine) = (axis * cosine.signum(), cosine.abs());
+    let sine = (1.0 - cosine * cosine).sqrt();
+    let from = lines[0].from;
+    let mut found = Vec::new();
+    // Where a line of sight touches, t cos^2 = axis.p; elsewhere |p - t axis| = t sin.
+    for (p, _) in &evidence.outline_ends {
+        found.push(axis.dot(*p - from) / (cosine * cosine));
+    }
+    for p in evidence.points().take(8) {
+        let p = p - from;
+        let (half, square) = (axis.dot(p), cosine * cosine);
+        let root = (half * half - square * p.length_squared()).max(0.0).sqrt();
+        found.extend([(half - root) / square, (half + root) / square]);
+    }
+    found
+        .into_iter()
+        .map(|t| (from + axis * t, (t * sine).abs()))
         .collect()
 }
 
