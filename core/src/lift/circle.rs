@@ -9,7 +9,8 @@ use super::Camera;
 pub(crate) struct DrawnCircle {
     /// Where its centre is drawn.
     pub(crate) center: DVec2,
-    /// Its radius, drawing units.
+    /// Its radius, drawing units; in a central projection that of a circle whose centre is at the
+    /// distance where lengths are drawn as they are.
     pub(crate) radius: f64,
     /// Largest distance of the points from it, in its own plane.
     pub(crate) residual: f64,
@@ -48,9 +49,14 @@ pub(crate) fn circle_through(
         .iter()
         .map(|&p| (unfold(p).distance(center) - radius).abs())
         .fold(0.0, f64::max);
+    let place = origin + u * center.x + w * center.y;
+    let scale = match camera {
+        Camera::Parallel => 1.0,
+        Camera::Central { focal, .. } => focal / -place.z,
+    };
     Some(DrawnCircle {
-        center: camera.project(origin + u * center.x + w * center.y),
-        radius,
+        center: camera.project(place),
+        radius: radius * scale,
         residual,
         gain,
     })
@@ -130,6 +136,7 @@ mod tests {
             .collect();
         let found = circle_through(&points, normal, &camera).unwrap();
         assert!(found.center.distance(camera.project(center)) < 1e-9);
+        assert!((found.radius - 0.8 * 2.5 / 3.0).abs() < 1e-9);
         assert!(found.residual < 1e-12);
     }
 

@@ -2,8 +2,9 @@
 //!
 //! They are among the assumed rows: a centre that is drawn on a circle's axis is taken to be there.
 
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
+use super::Surface;
 use super::assumed::Depth;
 use super::camera::Relation;
 use super::circle::{DrawnCircle, circle_through};
@@ -188,21 +189,9 @@ fn link(sheet: &Sheet<'_>, centers: &[Center], k: usize, face: usize, system: &m
     }
 }
 
-/// Two heights in a parallel projection that differ by a known one.
-const fn level(rise: f64) -> Relation {
-    Relation {
-        to: 1.0,
-        from: 1.0,
-        rise,
-    }
-}
-
 /// A pipe's bend by a right angle: the centre of its one end is as far along the one axis as along
 /// the other from the centre of its other end, which the drawing shows.
 fn bends(sheet: &Sheet<'_>, edges: &[usize], face: usize, system: &mut System<Tag>) {
-    if !sheet.camera().is_parallel() {
-        return;
-    }
     let count = sheet.directions.axes.len();
     for i in 0..count {
         for j in i + 1..count {
@@ -210,19 +199,21 @@ fn bends(sheet: &Sheet<'_>, edges: &[usize], face: usize, system: &mut System<Ta
             let (Some(from), Some(to)) = (from.first(), to.first()) else {
                 continue;
             };
-            let (a, b) = (sheet.axis(i), sheet.axis(j));
-            let det = a.truncate().perp_dot(b.truncate());
             let apart = to.at - from.at;
-            let along =
-                DVec2::new(apart.perp_dot(b.truncate()), a.truncate().perp_dot(apart)) / det;
-            let error =
-                (from.error + to.error + sheet.directions.error * apart.length()) / det.abs();
-            let even = (along.x.abs() - along.y.abs()).abs() < AGREE * error;
-            if even && along.x.abs() > 20.0 * error {
-                let row = level(along.x * a.z + along.y * b.z);
+            let error = from.error + to.error + sheet.directions.error * apart.length();
+            let diagonals = [1.0, -1.0].map(|sign| sheet.axis(i) + sheet.axis(j) * sign);
+            let aside = diagonals.map(|d| {
+                let drawn = sheet.camera().drawn(d, from.at.midpoint(to.at));
+                apart.perp_dot(drawn).abs()
+            });
+            let best = usize::from(aside[1] < aside[0]);
+            if aside[best] < AGREE * error && apart.length() > 20.0 * error {
+                let along = diagonals[best];
+                let row = sheet.camera().along(along, from.at, to.at);
+                let drawn = sheet.camera().drawn(along, from.at.midpoint(to.at));
+                let weight = drawn.length() / (2.0 * error);
                 let tag = Tag::Revolved { face };
-                from.depth
-                    .relate(&to.depth, row, (2.0 * error).recip(), tag, system);
+                from.depth.relate(&to.depth, row, weight, tag, system);
             }
         }
     }
@@ -267,13 +258,7 @@ fn half_bends(sheet: &Sheet<'_>, edges: &[usize], face: usize, system: &mut Syst
 
 /// A vertex on a cylinder with a known circle lies at one of two depths, in front of the axis or
 /// behind it, as all of the face does.
-///
-/// With n the axis, e its drawn direction, s and d a point's drawn distances from the centre along e
-/// and across it: `|n_xy| z = n_z s +- sqrt(r^2 - d^2)` above the centre's depth.
 pub(super) fn on_cylinder(sheet: &Sheet<'_>, _: &Unknowns, system: &mut System<Tag>) {
-    if !sheet.camera().is_parallel() {
-        return;
-    }
     for (face, f) in sheet.faces.iter().enumerate() {
         if f.kind != SurfaceKind::Cylinder {
             continue;
@@ -288,34 +273,66 @@ pub(super) fn on_cylinder(sheet: &Sheet<'_>, _: &Unknowns, system: &mut System<T
         let Some((edge, k, circle, middle)) = known else {
             continue;
         };
-        let n = sheet.axis(k);
-        let (slant, r) = (n.truncate().length(), circle.radius);
-        let along = n.truncate() / slant;
+        let (n, r) = (sheet.axis(k), circle.radius);
         let center = center_of(sheet, sheet.drawing.edges[edge].v[0], k, &circle);
-        // Above or below the plane through the axis that the outlines lie in.
-        let lift = |p: DVec2, z: f64| {
-            DVec3::new(-n.z * along.x, -n.z * along.y, slant).dot((p - center.at).extend(z))
+        // The circle where lengths are drawn as they are, see `circle_through`.
+        let (from, ray) = sheet.camera().ray(center.at);
+        let parallel = sheet.camera().is_parallel();
+        let cylinder = Surface::Cylinder {
+            origin: if parallel { from } else { ray },
+            axis: n,
+            radius: r,
         };
-        let rise = -(middle - center.at).dot(n.truncate()) / n.z;
-        let side = lift(middle, rise).signum();
+        let crossings = |p: DVec2| {
+            let (from, ray) = sheet.camera().ray(p);
+            let mut all = cylinder.crossings(from, ray);
+            all.sort_by(f64::total_cmp);
+            (from, ray, all)
+        };
+        // Whether the face is at the first crossing or at the second.
+        let (from, ray, all) = crossings(middle);
+        let own = n.dot(cylinder.origin() - from) / n.dot(ray);
+        let second = match all[..] {
+            [a, b] => (own - b).abs() < (own - a).abs(),
+            _ => continue,
+        };
         for &v in &sheet.corners[face] {
-            let d = sheet.drawing.vertices[v] - center.at;
-            let across = along.perp_dot(d);
-            let half = (r * r - across * across).sqrt();
+            let p = sheet.drawing.vertices[v];
+            let (from, ray, all) = crossings(p);
+            let Some(&t) = all.get(usize::from(second)) else {
+                continue;
+            };
+            let across = ray.reject_from_normalized(n);
+            let gradient = cylinder.gradient(from + ray * t);
+            let half = gradient.dot(across.normalize_or_zero()).abs();
             // Near the outline the depth is poorly known.
-            if half.is_nan() || half < 0.1 * r {
+            if half.is_nan() || half < 0.1 {
                 continue;
             }
-            let z = (n.z * d.dot(along) + side * half) / slant;
-            let error = (center.error + 2.0 * sheet.directions.precision) * r / half / slant
-                + sheet.directions.error * d.length() / (slant * slant);
+            let slant = across.length() / ray.length();
+            let error = (center.error + 2.0 * sheet.directions.precision) / half / slant
+                + sheet.directions.error * p.distance(center.at) / (slant * slant);
             let own = Depth {
                 terms: vec![(v, 1.0)],
                 shift: 0.0,
             };
+            // `t` is a depth from the centre's, or a ratio of depths.
+            let row = if parallel {
+                Relation {
+                    to: 1.0,
+                    from: 1.0,
+                    rise: t,
+                }
+            } else {
+                Relation {
+                    to: t,
+                    from: 1.0,
+                    rise: 0.0,
+                }
+            };
             let weight = (2.0 * error).recip();
             let tag = Tag::Revolved { face };
-            center.depth.relate(&own, level(z), weight, tag, system);
+            center.depth.relate(&own, row, weight, tag, system);
         }
     }
 }
