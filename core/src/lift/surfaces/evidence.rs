@@ -35,7 +35,8 @@ pub(super) struct Sight {
 }
 
 impl Sight {
-    fn new(camera: &Camera, p: DVec2) -> Self {
+    /// The line of all points drawn at `p`.
+    pub(super) fn new(camera: &Camera, p: DVec2) -> Self {
         let (from, ray) = camera.ray(p);
         Self {
             from,

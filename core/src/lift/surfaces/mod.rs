@@ -17,6 +17,8 @@ mod ring;
 mod sphere;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tests_sight;
 mod truth;
 mod wholes;
 

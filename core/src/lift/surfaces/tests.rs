@@ -10,9 +10,8 @@ use super::refine::{Freedom, refined};
 use super::ring::Ring;
 use super::{any, axes, bend, judge, profile, sphere};
 use crate::lift::Surface;
-use crate::lift::ring_torus::touching_gap;
 
-const AT: DVec3 = DVec3::new(0.2, -0.1, 0.3);
+pub(super) const AT: DVec3 = DVec3::new(0.2, -0.1, 0.3);
 
 fn axis() -> DVec3 {
     DVec3::new(0.3, 0.8, 0.5).normalize()
@@ -48,7 +47,7 @@ fn section(major: f64, minor: f64, turn: f64, from: f64, to: f64) -> Vec<DVec3> 
 }
 
 /// The evidence of boundary curves, with the surfaces beside them.
-fn evidence(curves: Vec<(Vec<DVec3>, Surface)>) -> Evidence {
+pub(super) fn evidence(curves: Vec<(Vec<DVec3>, Surface)>) -> Evidence {
     let bounds = curves.into_iter().map(|(points, beside)| Bound {
         ring: Ring::through(&points, None, 1e-6),
         points,
@@ -66,7 +65,7 @@ fn evidence(curves: Vec<(Vec<DVec3>, Surface)>) -> Evidence {
     }
 }
 
-fn free(curves: Vec<Vec<DVec3>>) -> Evidence {
+pub(super) fn free(curves: Vec<Vec<DVec3>>) -> Evidence {
     evidence(curves.into_iter().map(|c| (c, Surface::Unknown)).collect())
 }
 
@@ -86,7 +85,7 @@ fn torus(major: f64, minor: f64) -> Surface {
 }
 
 /// Whether two surfaces are the same within a tolerance; axes may point either way.
-fn same(a: &Surface, b: &Surface, tolerance: f64) -> bool {
+pub(super) fn same(a: &Surface, b: &Surface, tolerance: f64) -> bool {
     let lengths = |s: &Surface| match *s {
         Surface::Cylinder { radius, .. } | Surface::Sphere { radius, .. } => [radius, 0.0],
         Surface::Cone { angle, .. } => [angle, 0.0],
@@ -107,7 +106,7 @@ fn same(a: &Surface, b: &Surface, tolerance: f64) -> bool {
         && off.length() <= tolerance
 }
 
-fn holds(candidates: &[Surface], wanted: &Surface) -> bool {
+pub(super) fn holds(candidates: &[Surface], wanted: &Surface) -> bool {
     candidates.iter().any(|c| same(c, wanted, 1e-6))
 }
 
@@ -154,7 +153,7 @@ fn axes_come_from_circles_and_neighbours_once() {
 }
 
 #[test]
-fn spheres_are_found_through_points_by_outlines_and_by_touch() {
+fn spheres_are_found_through_points_and_by_touch() {
     let ball = Surface::Sphere {
         center: AT,
         radius: 0.5,
@@ -171,12 +170,6 @@ fn spheres_are_found_through_points_by_outlines_and_by_touch() {
     assert!(holds(&sphere::spheres(&corner), &ball));
     let best = judge::best(&corner, sphere::spheres(&corner), 1e-6);
     assert!(best.is_some_and(|s| same(&s, &ball, 1e-6)));
-
-    // An outline is drawn as a circle at the centre's depth.
-    let mut outlined = free(Vec::new());
-    outlined.discs = vec![(AT.truncate(), 0.5)];
-    outlined.outline_ends = vec![AT + DVec3::X * 0.5];
-    assert!(holds(&sphere::spheres(&outlined), &ball));
 
     // A dome on a pipe: one circle, and the pipe that it goes on from smoothly.
     let pipe = Surface::Cylinder {
@@ -337,30 +330,6 @@ fn stand_ins_close_bands_between_circles_only() {
         vec![AT, AT + axis()],
     ]);
     assert!(judge::stand_in(&open, any(&open)).is_none());
-}
-
-#[test]
-fn lines_of_sight_along_outlines_count() {
-    // A ring seen along its axis: the outline touches at the widest circle.
-    let ring = Surface::Torus {
-        center: AT,
-        axis: DVec3::Z,
-        major: 0.6,
-        minor: 0.1,
-    };
-    let mut evidence = free(Vec::new());
-    let around = (0..12).map(|i| DVec2::from_angle(f64::from(i) * TAU / 12.0));
-    evidence.outlines = around.map(|d| AT.truncate() + d * 0.7).collect();
-    assert!(judge::misfit(&evidence, &ring) < 1e-9);
-    let thin = Surface::Torus {
-        center: AT,
-        axis: DVec3::Z,
-        major: 0.6,
-        minor: 0.08,
-    };
-    assert!((judge::misfit(&evidence, &thin) - 0.02).abs() < 1e-6);
-    let p = evidence.outlines[0].extend(4.0);
-    assert!(touching_gap(&ring, p, DVec3::Z) < 1e-9);
 }
 
 fn whole(surface: &Surface) -> Evidence {

@@ -1,0 +1,130 @@
+//! Surfaces found by the lines of sight that touch them.
+
+use std::f64::consts::TAU;
+
+use glam::{DVec2, DVec3};
+
+use super::evidence::{Evidence, Sight};
+use super::tests::{AT, evidence, free, holds, same};
+use super::{axes, judge, profile, sphere};
+use crate::lift::ring_torus::touching_gap;
+use crate::lift::{Camera, Surface};
+
+/// A camera at the origin, and a place that it sees.
+const CAMERA: Camera = Camera::Central {
+    principal: DVec2::new(0.05, -0.1),
+    focal: 2.5,
+};
+const SEEN: DVec3 = DVec3::new(0.4, 0.2, -3.0);
+
+fn around() -> impl Iterator<Item = DVec2> {
+    (0..12).map(|i| DVec2::from_angle(f64::from(i) * TAU / 12.0))
+}
+
+/// The points in which lines from the origin touch a ball.
+fn touched(center: DVec3, radius: f64) -> Vec<DVec3> {
+    let (u, v) = center.normalize().any_orthonormal_pair();
+    let share = (radius / center.length()).powi(2);
+    let (middle, wide) = (center * (1.0 - share), radius * (1.0 - share).sqrt());
+    around()
+        .map(|d| middle + (u * d.x + v * d.y) * wide)
+        .collect()
+}
+
+fn sights(camera: &Camera, points: &[DVec3]) -> Vec<Sight> {
+    let sight = |p: &DVec3| Sight::new(camera, camera.project(*p));
+    points.iter().map(sight).collect()
+}
+
+#[test]
+fn the_outline_of_a_ball_is_a_circle_at_its_centres_depth() {
+    let mut outlined = free(Vec::new());
+    outlined.discs = vec![(AT.truncate(), 0.5)];
+    let end = AT + DVec3::X * 0.5;
+    outlined.outline_ends = vec![(end, sights(&Camera::Parallel, &[end])[0])];
+    let ball = Surface::Sphere {
+        center: AT,
+        radius: 0.5,
+    };
+    assert!(holds(&sphere::spheres(&outlined), &ball));
+}
+
+#[test]
+fn in_perspective_the_outline_of_a_ball_is_a_cone_of_sight() {
+    let ball = Surface::Sphere {
+        center: SEEN,
+        radius: 0.5,
+    };
+    let points = touched(SEEN, 0.5);
+    // With a point of the outline, or with one elsewhere on the ball.
+    let mut outlined = free(Vec::new());
+    outlined.outlines = sights(&CAMERA, &points);
+    let mut other = outlined.clone();
+    outlined.outline_ends = vec![(points[3], outlined.outlines[3])];
+    other.vertices = vec![SEEN + DVec3::new(0.3, 0.0, 0.4)];
+    let found = sphere::spheres(&outlined);
+    let best = judge::best(&outlined, found, 1e-9);
+    assert!(best.is_some_and(|s| same(&s, &ball, 1e-9)), "{best:?}");
+    // That point may be in front of a smaller ball or behind.
+    let found = sphere::spheres(&other);
+    assert!(holds(&found, &ball), "{found:?}");
+}
+
+#[test]
+fn lines_of_sight_along_outlines_count() {
+    // A ring seen along its axis: the outline touches at the widest circle.
+    let ring = |minor| Surface::Torus {
+        center: AT,
+        axis: DVec3::Z,
+        major: 0.6,
+        minor,
+    };
+    let mut evidence = free(Vec::new());
+    let widest: Vec<DVec3> = around().map(|d| AT + d.extend(0.0) * 0.7).collect();
+    evidence.outlines = sights(&Camera::Parallel, &widest);
+    assert!(judge::misfit(&evidence, &ring(0.1)) < 1e-9);
+    assert!((judge::misfit(&evidence, &ring(0.08)) - 0.02).abs() < 1e-6);
+    let p = evidence.outlines[0].from + DVec3::Z * 4.0;
+    assert!(touching_gap(&ring(0.1), p, DVec3::Z) < 1e-9);
+}
+
+#[test]
+fn where_an_outline_ends_the_torus_is_seen_edge_on() {
+    let torus = Surface::Torus {
+        center: SEEN,
+        axis: DVec3::Y,
+        major: 0.6,
+        minor: 0.2,
+    };
+    // Where the section in the plane of a radius and the axis is seen edge-on: its normal there is
+    // at right angles to the line of sight.
+    let out = DVec3::new(0.6, 0.0, 0.8);
+    let place = |angle: f64| {
+        let normal = out * angle.cos() + DVec3::Y * angle.sin();
+        (SEEN + out * 0.6 + normal * 0.2, normal)
+    };
+    let edge_on = |angle: f64| place(angle).0.dot(place(angle).1);
+    let (mut low, mut high) = (0.0, std::f64::consts::PI);
+    assert!(edge_on(low) * edge_on(high) < 0.0);
+    for _ in 0..60 {
+        let middle = f64::midpoint(low, high);
+        if edge_on(middle) * edge_on(low) > 0.0 {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    let end = place(low).0;
+    let ring = |height: f64| -> Vec<DVec3> {
+        let radius = 0.6 + (0.04 - height * height).sqrt();
+        let point = |d: DVec2| SEEN + DVec3::new(d.x * radius, height, d.y * radius);
+        around().map(point).collect()
+    };
+    let mut band: Evidence = evidence(vec![(ring(0.1), Surface::Unknown)]);
+    band.outline_ends = vec![(end, sights(&CAMERA, &[end])[0])];
+    let found: Vec<Surface> = axes::axes(&band)
+        .iter()
+        .flat_map(|axis| profile::tori(&band, axis))
+        .collect();
+    assert!(holds(&found, &torus), "{found:?}");
+}
