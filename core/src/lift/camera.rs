@@ -76,6 +76,14 @@ impl Camera {
         }
     }
 
+    /// Height of a depth z.
+    pub(crate) fn height(&self, z: f64) -> f64 {
+        match *self {
+            Self::Parallel => z,
+            Self::Central { focal, .. } => focal * focal / -z,
+        }
+    }
+
     /// Height on a scale on which a part of a drawing that moves along the lines of sight shifts:
     /// itself in a parallel projection, `f ln(h / f)` in a central one, where such a part grows.
     pub(crate) fn level(&self, height: f64) -> f64 {
@@ -181,13 +189,6 @@ mod tests {
 
     use super::*;
 
-    fn height(camera: &Camera, p: DVec3) -> f64 {
-        match *camera {
-            Camera::Parallel => p.z,
-            Camera::Central { focal, .. } => focal * focal / -p.z,
-        }
-    }
-
     fn unit(v: [f64; 3]) -> DVec3 {
         DVec3::from_array(v).normalize_or(DVec3::Y)
     }
@@ -210,7 +211,7 @@ mod tests {
             let b = a + l * step;
             let c = a + (n.cross(l) - 0.4 * l) * step;
             let [pa, pb, pc] = [a, b, c].map(|p| camera.project(p));
-            let [ha, hb, hc] = [a, b, c].map(|p| height(&camera, p));
+            let [ha, hb, hc] = [a, b, c].map(|p| camera.height(p.z));
             prop_assert!(camera.place(pa, camera.depth(ha)).distance(a) < 1e-12);
             prop_assume!(camera.drawn(l, pa.midpoint(pb)).length() > 0.05);
             prop_assume!(camera.facing(n, pa).abs() > 0.05 && camera.facing(n, pb).abs() > 0.05);

@@ -1,10 +1,9 @@
 //! Loose parts of a drawing, tied by the surfaces that the other depths fix.
 //!
 //! A vertex on a known cylinder, cone, sphere or torus lies where its line of sight meets the
-//! surface: at two depths or four, of which the vertices of one loose part agree on one. A vertex
+//! surface: at two depths or four, of which the vertices of one loose part agree on one in a
+//! parallel projection. A vertex
 //! of outlines only lies where its line of sight touches the surface.
-
-use glam::DVec3;
 
 use super::Surface;
 use super::heights::Heights;
@@ -18,11 +17,11 @@ const AGREE: f64 = 1e-4;
 /// A line of sight at a smaller angle to the surface (its sine) does not tell the depth.
 const GRAZING: f64 = 0.05;
 
-/// A depth that a surface gives.
+/// A height that a surface gives.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Tie {
     pub(super) vertex: usize,
-    pub(super) depth: f64,
+    pub(super) height: f64,
     /// Expected error.
     pub(super) error: f64,
     /// The face whose surface it is.
@@ -62,9 +61,9 @@ fn tie(sheet: &Sheet<'_>, heights: &Heights, surfaces: &[Surface], group: &[usiz
         for (face, surface) in surfaces.iter().enumerate() {
             let round = !matches!(surface, Surface::Plane { .. } | Surface::Unknown);
             if round && sheet.corners[face].binary_search(&vertex).is_ok() {
-                let found = depths_on(sheet, surface, vertex, face);
+                let found = heights_on(sheet, surface, vertex, face);
                 let shift = |tie: Tie| Shift {
-                    by: tie.depth - heights.of(vertex),
+                    by: tie.height - heights.of(vertex),
                     tie,
                 };
                 asked.push(found.into_iter().map(shift).collect());
@@ -90,8 +89,8 @@ fn tie(sheet: &Sheet<'_>, heights: &Heights, surfaces: &[Surface], group: &[usiz
 }
 
 /// Heights at which a vertex may lie on a surface.
-fn depths_on(sheet: &Sheet<'_>, surface: &Surface, vertex: usize, face: usize) -> Vec<Tie> {
-    let from = sheet.drawing.vertices[vertex].extend(0.0);
+fn heights_on(sheet: &Sheet<'_>, surface: &Surface, vertex: usize, face: usize) -> Vec<Tie> {
+    let (from, ray) = sheet.camera().ray(sheet.drawing.vertices[vertex]);
     let precision = sheet.directions.precision;
     let inside = |e: &usize| {
         let faces = sheet.neighbours(*e);
@@ -101,35 +100,31 @@ fn depths_on(sheet: &Sheet<'_>, surface: &Surface, vertex: usize, face: usize) -
                 .all(|&f| sheet.faces[f].kind == sheet.faces[face].kind)
             && sheet.circles[*e].is_none()
     };
+    let tie = |t: f64, error: f64| Tie {
+        vertex,
+        height: sheet.camera().height((from + ray * t).z),
+        error,
+        face,
+    };
     let at = sheet.edges_at(vertex);
     let outline = !at.is_empty() && at.iter().all(inside);
     if outline {
         let found = match *surface {
-            Surface::Sphere { center, .. } => vec![center.z],
-            Surface::Torus { .. } => touches(surface, from, DVec3::Z, 1e-3 * sheet.size),
+            Surface::Sphere { center, .. } => vec![(center - from).dot(ray) / ray.length_squared()],
+            Surface::Torus { .. } => touches(surface, from, ray, 1e-3 * sheet.size),
             _ => Vec::new(),
         };
         return found
             .into_iter()
-            .map(|depth| Tie {
-                vertex,
-                depth,
-                error: 10.0 * precision,
-                face,
-            })
+            .map(|t| tie(t, 10.0 * precision))
             .collect();
     }
     surface
-        .crossings(from, DVec3::Z)
+        .crossings(from, ray)
         .into_iter()
-        .filter_map(|depth| {
-            let slope = surface.gradient(from.with_z(depth)).z.abs();
-            (slope > GRAZING).then(|| Tie {
-                vertex,
-                depth,
-                error: 4.0 * precision / slope,
-                face,
-            })
+        .filter_map(|t| {
+            let slope = surface.gradient(from + ray * t).dot(ray.normalize()).abs();
+            (slope > GRAZING).then(|| tie(t, 4.0 * precision / slope))
         })
         .collect()
 }

@@ -171,20 +171,21 @@ fn solve_rows(sheet: &Sheet<'_>, tie_parts: bool) -> Result<Solved, LiftError> {
     })
 }
 
-/// Ties what is loose to the main part by surfaces that the main part's depths fix; in a parallel
-/// projection, where a loose part only shifts.
+/// Ties what is loose to the main part by surfaces that the main part's heights fix.
 fn complete(
     sheet: &Sheet<'_>,
     unknowns: &Unknowns,
     system: &mut System<Tag>,
     null_space: &mut NullSpace,
 ) -> Result<(), LiftError> {
-    if !sheet.camera().is_parallel() {
-        return Ok(());
-    }
+    let parallel = sheet.camera().is_parallel();
     for _ in 0..COMPLETIONS {
-        let groups = groups(unknowns, null_space);
-        if groups.len() < 2 {
+        let groups = if parallel {
+            groups(unknowns, null_space)
+        } else {
+            one_by_one(unknowns, null_space)
+        };
+        if groups.len() < 2 || groups[0].is_empty() {
             break;
         }
         let x = system.minimise(&vec![true; system.rows().len()])?;
@@ -192,8 +193,10 @@ fn complete(
         let plane = |f: usize| {
             let p = unknowns.plane(f)?;
             let open = |terms: &[(usize, f64)]| null_space.leaves_open(terms);
-            let fixed =
-                !open(&[(p, 1.0)]) && !open(&[(p + 1, 1.0)]) && !open(&[(p + 2, 1.0), (main, 1.0)]);
+            // All heights of a parallel projection may shift together.
+            let shift: &[(usize, f64)] = if parallel { &[(main, 1.0)] } else { &[] };
+            let constant = [&[(p + 2, 1.0)], shift].concat();
+            let fixed = !open(&[(p, 1.0)]) && !open(&[(p + 1, 1.0)]) && !open(&constant);
             fixed.then(|| [x[p], x[p + 1], x[p + 2]])
         };
         let mut known = vec![false; unknowns.vertices().len()];
@@ -208,12 +211,14 @@ fn complete(
             break;
         }
         for tie in ties {
-            system.push(
-                [(tie.vertex, 1.0), (main, -1.0)],
-                tie.depth - x[main],
-                tie.error.recip(),
-                Tag::Revolved { face: tie.face },
-            );
+            let (weight, tag) = (tie.error.recip(), Tag::Revolved { face: tie.face });
+            if parallel {
+                let terms = [(tie.vertex, 1.0), (main, -1.0)];
+                system.push(terms, tie.height - x[main], weight, tag);
+            } else {
+                let terms = [(tie.vertex, 1.0), (main, -tie.height / x[main])];
+                system.push(terms, 0.0, weight, tag);
+            }
         }
         *null_space = system.null_space()?;
     }
@@ -277,6 +282,15 @@ fn groups(unknowns: &Unknowns, null_space: &NullSpace) -> Vec<Vec<usize>> {
     }
     groups.sort_by_key(|g| std::cmp::Reverse(g.len()));
     groups
+}
+
+/// The vertices whose height is fixed in a central projection, then every other one by itself: a
+/// loose part there does not shift but grows, each of its heights by a share.
+fn one_by_one(unknowns: &Unknowns, null_space: &NullSpace) -> Vec<Vec<usize>> {
+    let (free, fixed): (Vec<usize>, Vec<usize>) =
+        unknowns.vertices().partition(|&v| null_space.is_free(v));
+    let free = free.into_iter().map(|v| vec![v]);
+    std::iter::once(fixed).chain(free).collect()
 }
 
 /// Vertices whose depth is not tied to that of most others, sorted.
