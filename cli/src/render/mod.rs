@@ -69,11 +69,11 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let target = Target::of(&args.output)?;
     let output = Output::create(&args.output)?;
     let drawing = usable(&args.drawing)?;
-    let found = FacesFrom::new(&args.faces).faces(&drawing)?;
+    let mut found = FacesFrom::new(&args.faces).faces(&drawing)?;
     tell(&found.notices);
     let solid = args
         .solid
-        .then(|| Built::new(&drawing, &found, args.flip, &output))
+        .then(|| Built::new(&drawing, &mut found, args.flip, &output))
         .transpose()?;
     let svg = picture(args, &drawing, &found, solid.as_ref()).to_svg();
     match target {
