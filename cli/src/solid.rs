@@ -4,22 +4,27 @@ use std::path::Path;
 
 use faceformer::Progress;
 use faceformer::drawing::Drawing;
-use faceformer::identify::Identification;
-use faceformer::lift::Lift;
+use faceformer::identify::{Face, Identification};
+use faceformer::lift::{Lift, LiftOptions, lift};
 use faceformer::plan::{Orientation, Plan, PlanOptions, plan};
+use faceformer::readings::{self, Taken};
 use faceformer_occt::{Format, Solid, SolidReport, build};
 use serde::Serialize;
 
 use crate::args::{OrientationArg, SolidArgs};
 use crate::failure::Failure;
 use crate::output::{Output, json_line, print};
-use crate::stages::{FacesFrom, raise, tell, usable};
+use crate::stages::{FacesFrom, tell, usable, warn};
 
 /// What `-o OUT.json` holds.
 #[derive(Debug, Serialize)]
 struct Record<'a> {
     report: &'a SolidReport,
-    lift: &'a Lift,
+    /// Which reading the solid is of: 0 is the best, 1 the first alternative.
+    reading: usize,
+    /// Why it is not the best one.
+    notice: Option<&'a str>,
+    lift: Option<&'a Lift>,
     plan: &'a Plan,
 }
 
@@ -70,7 +75,6 @@ pub(crate) fn run(args: &SolidArgs) -> Result<(), Failure> {
     let drawing = usable(&args.drawing)?;
     let found = FacesFrom::new(&args.faces).faces(&drawing)?;
     tell(&found.notices);
-    let lift = raise(&drawing, &found, args.flip)?;
     let options = PlanOptions {
         scale: args.scale,
         orientation: match args.orientation {
@@ -78,8 +82,13 @@ pub(crate) fn run(args: &SolidArgs) -> Result<(), Failure> {
             OrientationArg::Drawn => Orientation::Drawn,
         },
     };
-    let (plan, solid) = match make(&drawing, &found, &lift, &options) {
-        Ok(made) => made,
+    let taken = make(&drawing, &found, args.flip, &options);
+    if let Some(lift) = &taken.result.lift {
+        warn(lift);
+    }
+    let Made { lift, built } = taken.result;
+    let (lift, plan, solid) = match built {
+        Ok((plan, solid)) => (lift, plan, solid),
         Err(Failure::Build(error)) => {
             if let (Some(output), Some(shell)) = (partial, error.partial()) {
                 output.write(shell)?;
@@ -89,31 +98,80 @@ pub(crate) fn run(args: &SolidArgs) -> Result<(), Failure> {
         }
         Err(failure) => return Err(failure),
     };
+    tell(taken.notice.as_slice());
     tell(&plan.notices);
     let report = solid.report();
     match target {
         Target::Shape(format) => solid.write(output.path()?, format)?,
         Target::Json => {
-            let lift = &lift;
-            let plan = &plan;
-            output.write(&json_line(&Record { report, lift, plan })?)?;
+            output.write(&json_line(&Record {
+                report,
+                reading: taken.reading,
+                notice: taken.notice.as_deref(),
+                lift: lift.as_ref(),
+                plan: &plan,
+            })?)?;
         }
     }
     output.commit()?;
     print(summary(&args.output, report).as_bytes())
 }
 
-/// Plans and builds the solid of a lifted drawing.
-///
-/// # Errors
-/// [`Failure::Stage`] from the plan, [`Failure::Build`] from the CAD kernel.
+/// What came of one set of faces.
+#[derive(Debug)]
+pub(crate) struct Made {
+    /// The depths, if they could be had.
+    pub(crate) lift: Option<Lift>,
+    /// The solid with its plan, or the failure of the stage at fault.
+    pub(crate) built: Result<(Plan, Solid), Failure>,
+}
+
+impl Made {
+    /// Lifts, plans and builds.
+    fn of(drawing: &Drawing, faces: &[Face], flip: bool, options: &PlanOptions) -> Self {
+        match lift(drawing, faces, &LiftOptions { flip }, Progress::none()) {
+            Ok(lift) => Self {
+                built: solid(drawing, faces, &lift, options),
+                lift: Some(lift),
+            },
+            Err(error) => Self {
+                lift: None,
+                built: Err(error.into()),
+            },
+        }
+    }
+
+    /// What is wrong with it, if something is.
+    pub(crate) fn fault(&self) -> Option<String> {
+        match &self.built {
+            Err(failure) => Some(readings::failure(failure)),
+            Ok(_) => self.lift.as_ref().and_then(readings::conflict),
+        }
+    }
+}
+
+/// Makes the solid of the first reading without fault.
 pub(crate) fn make(
     drawing: &Drawing,
     found: &Identification,
+    flip: bool,
+    options: &PlanOptions,
+) -> Taken<Made> {
+    readings::take(
+        found,
+        readings::ALTERNATIVES,
+        |faces| Made::of(drawing, faces, flip, options),
+        Made::fault,
+    )
+}
+
+fn solid(
+    drawing: &Drawing,
+    faces: &[Face],
     lift: &Lift,
     options: &PlanOptions,
 ) -> Result<(Plan, Solid), Failure> {
-    let plan = plan(drawing, &found.faces, lift, options)?;
+    let plan = plan(drawing, faces, lift, options)?;
     let solid = build(&plan, Progress::none())?;
     Ok((plan, solid))
 }

@@ -50,12 +50,16 @@ impl FacesFrom {
                 )
             }),
             Self::File(name) => {
-                identify::read_faces(drawing, &source::text(name)?).map_err(|source| {
-                    Failure::Faces {
-                        name: name.clone(),
-                        source,
-                    }
-                })
+                let mut found =
+                    identify::read_faces(drawing, &source::text(name)?).map_err(|source| {
+                        Failure::Faces {
+                            name: name.clone(),
+                            source,
+                        }
+                    })?;
+                // The user chose these; nothing is to take their place.
+                found.alternatives.clear();
+                Ok(found)
             }
         }
     }
@@ -131,11 +135,16 @@ pub(crate) fn raise(
 ) -> Result<Lift, Failure> {
     let options = LiftOptions { flip };
     let lifted = lift(drawing, &found.faces, &options, Progress::none())?;
-    for conflict in &lifted.conflicts {
+    warn(&lifted);
+    Ok(lifted)
+}
+
+/// Tells the user which faces contradict the depths.
+pub(crate) fn warn(lift: &Lift) {
+    for conflict in &lift.conflicts {
         eprintln!(
             "faceformer: warning: {conflict}, {:.2e} off its surface",
             conflict.residual
         );
     }
-    Ok(lifted)
 }

@@ -17,6 +17,7 @@ pub mod identify;
 pub mod lift;
 pub mod plan;
 mod progress;
+pub mod readings;
 
 pub use error::Error;
 pub use progress::{Progress, Stage};

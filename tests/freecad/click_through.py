@@ -1,16 +1,28 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The two clicks in FreeCAD's window: Identify Faces, Convert to Solid. Run under Xvfb."""
 
+import re
 import time
+from dataclasses import replace
 
 import FreeCAD
 import FreeCADGui
 import Part
 from freecad.Faceformer import api, panel, worker
 from freecad.Faceformer.errors import Cancelled
+from freecad.Faceformer.model import Identification
 from freecad.Faceformer.qt import QtCore, QtWidgets
 from harness import check, refuses, run
-from mouse import click, click_3d, click_item, screenshot, tool_button, wait, wait_until
+from mouse import (
+    click,
+    click_3d,
+    click_item,
+    click_message,
+    screenshot,
+    tool_button,
+    wait,
+    wait_until,
+)
 
 V = FreeCAD.Vector
 NAMES = ("IdentifyFaces", "ConvertToSolid", "FlipDepth", "WireframeFromSolid")
@@ -152,12 +164,74 @@ def test_messages(window, document, sketch):
     messages = window.findChild(QtWidgets.QListWidget, "Faceformer_Messages")
     check(messages.count() > 0, f"{messages.count()} messages on an open drawing")
     if messages.count():
-        item = messages.item(messages.count() - 1)
-        click(messages.viewport(), messages.visualItemRect(item).center())
+        click_message(messages, messages.count() - 1)
     wait(500)
     screenshot("messages")
     check(not panel.current().accept(), "it cannot be converted")
     panel.current().reject()
+    check(len(document.Objects) == objects, "and the document is as it was")
+
+
+def merged(identified):
+    """The same faces, with the first and a planar neighbour of it taken for one."""
+    reading = identified.identification.readings[0]
+    first = reading.faces[0]
+    beside = next(
+        k
+        for k, face in enumerate(reading.faces)
+        if k and face.kind == "plane" and set(face.edge_indices) & set(first.edge_indices)
+    )
+    raw = [dict(face) for face in reading.raw]
+    raw[0]["loops"] = raw[0]["loops"] + raw.pop(beside)["loops"]
+    # Another engine's name, so that nothing that is known of the right faces is taken for theirs.
+    wrong = Identification.parse(
+        {"engine": "by hand", "faces": raw}, identified.identification.drawing
+    )
+    return replace(identified, identification=wrong)
+
+
+def test_conflict(window, document, sketch):
+    """Wrong faces are said in the panel, and a click on that shows them and their vertices."""
+    for obj in document.Objects:
+        obj.ViewObject.Visibility = obj is sketch
+    select(document, sketch)
+    wait_until(lambda: "IdentifyFaces" in buttons(window), 3000)
+    objects = len(document.Objects)
+    click(tool_button(window, "Faceformer_IdentifyFaces"))
+    wait_until(lambda: panel.current() is not None and not panel.current().busy())
+    messages = window.findChild(QtWidgets.QListWidget, "Faceformer_Messages")
+    texts = [messages.item(k).text() for k in range(messages.count())]
+    check(not any("conflict" in text for text in texts), "right faces have no conflict")
+
+    shown = panel.current()
+    shown.session.outcome = replace(
+        shown.session.outcome, identified=merged(shown.session.outcome.identified)
+    )
+    shown.show_outcome()
+    texts = [messages.item(k).text() for k in range(messages.count())]
+    told = [k for k, text in enumerate(texts) if text.startswith("Face 1 conflicts with face")]
+    check(len(told) == 1, f"the wrong face is named: {texts}")
+    click_message(messages, told[0])
+    numbers, corners = re.match(
+        r"Face 1 conflicts with faces? (.*) at vert\w+ (.*)", texts[told[0]]
+    ).groups()
+    expected = {1, *map(int, re.findall(r"\d+", numbers))}
+    faces = window.findChild(QtWidgets.QTreeWidget, "Faceformer_Faces")
+    rows = {int(item.text(0)) for item in faces.selectedItems()}
+    check(rows == expected, f"a click selects its faces {sorted(expected)}: {sorted(rows)}")
+    seen = {number + 1 for number in shown.patches.highlighted()}
+    check(seen == expected, f"and brings them out in the 3D view: {sorted(seen)}")
+    drawing = shown.session.outcome.drawing
+    places = [drawing.vertices[int(v)] for v in re.findall(r"\d+", corners)]
+    check(shown.patches.marked() == places, f"and marks its vertices: {shown.patches.marked()}")
+    wait(600)
+    screenshot("conflict")
+    click_item(faces, 1, 1)
+    check(shown.patches.marked() == [], "a click on another face takes the marks away")
+    check(not shown.accept(), "wrong faces cannot be converted")
+    texts = [messages.item(k).text() for k in range(messages.count())]
+    check(any("conflicts" in text for text in texts), "and the conflict is still said")
+    shown.reject()
     check(len(document.Objects) == objects, "and the document is as it was")
 
 
@@ -217,6 +291,7 @@ def main():
     test_identify(window, document, sketch)
     test_convert(window, document)
     test_messages(window, document, sketch)
+    test_conflict(window, document, sketch)
     test_wireframe(window, document, solid)
     test_cancel(window)
 

@@ -78,6 +78,13 @@ def click_item(tree, row, column=0):
     click(tree.viewport(), QtCore.QPoint(x, rect.center().y()))
 
 
+def click_message(messages, row):
+    """Clicks on a row of the list of messages."""
+    item = messages.item(row)
+    messages.scrollToItem(item)
+    click(messages.viewport(), messages.visualItemRect(item).center())
+
+
 def screenshot(name):
     """Keeps a picture of the whole screen: grabbing the window leaves the 3D view grey."""
     picture = QtWidgets.QApplication.primaryScreen().grabWindow(0)

@@ -100,6 +100,7 @@ fn solids_come_back_from_their_wireframes() {
     ] {
         assert!(text.contains(&format!("ok    part {part} ")), "{text}");
     }
+    assert!(text.contains(" real parts came back"), "{text}");
 }
 
 #[test]

@@ -57,6 +57,8 @@ struct SolidFigures {
     lifted: f64,
     /// Share of drawings that gave a valid closed solid.
     valid: f64,
+    /// Number of drawings whose solid is of an alternative, since the first reading has a fault.
+    exchanged: usize,
     /// Median time of lifting, over the drawings that could be lifted.
     lift_ms_median: f64,
     /// Median time of plan and solid, over the drawings that gave a valid one.
@@ -79,6 +81,10 @@ struct RightFigures {
     /// Share of drawings whose solid has as many faces of each kind as the true one; of one kind,
     /// as many of that.
     faces_matched: f64,
+    /// Share of drawings of which the solid, or that of one of the first three readings, is within
+    /// 1e-3 of the true one.
+    #[serde(rename = "chamfer_top3")]
+    near_top3: f64,
     /// Number of drawings that are left out.
     no_truth: usize,
 }
@@ -102,7 +108,9 @@ impl RightFigures {
             let count = all.filter(|c| right(c)).count();
             100.0 * count as f64 / (measured.len() - no_truth).max(1) as f64
         };
+        let top3 = measured.iter().filter(|m| m.near_top3).count();
         Self {
+            near_top3: 100.0 * top3 as f64 / (measured.len() - no_truth).max(1) as f64,
             near: share(&|c| c.near),
             volume_within_1pct: share(&|c| c.volume),
             faces_matched: share(&matched),
@@ -135,6 +143,7 @@ impl SolidFigures {
         Self {
             lifted: share(&all, |m| m.lifted),
             valid: share(&all, |m| m.valid),
+            exchanged: all.iter().filter(|m| m.exchanged).count(),
             lift_ms_median: middle(|m| m.lift_ms),
             solid_ms_median: middle(|m| m.solid_ms),
             right: RightFigures::of(&all, |c| c.faces == c.true_faces),
@@ -185,12 +194,15 @@ impl Figures {
             let r = &s.right;
             writeln!(
                 text,
-                "solids  lifted    {:6.2}   valid  {:6.2}\n\
-                 right   Chamfer   {:6.2}   volume {:6.2}   faces {:6.2}   no truth {}\n\
+                "solids  lifted    {:6.2}   valid  {:6.2}   of alternatives {}\n\
+                 right   Chamfer   {:6.2}   in top 3 {:6.2}   volume {:6.2}   faces {:6.2}   \
+                 no truth {}\n\
                  time    lift median {:.3} ms   solid median {:.3} ms",
                 s.lifted,
                 s.valid,
+                s.exchanged,
                 r.near,
+                r.near_top3,
                 r.volume_within_1pct,
                 r.faces_matched,
                 r.no_truth,
@@ -284,6 +296,8 @@ mod tests {
             solid_ms: None,
             corrupted: None,
             compared: None,
+            exchanged: false,
+            near_top3: false,
             no_truth: false,
             kinds: [true, false, false, true, false, false],
             failed: messages

@@ -4,11 +4,12 @@ use std::time::Instant;
 
 use faceformer::Progress;
 use faceformer::drawing::{Drawing, SurfaceKind, Truth};
-use faceformer::identify::Identification;
 use faceformer::identify::metrics::DrawingScore;
-use faceformer::lift::{LiftOptions, depth_error, lift};
-use faceformer::plan::{PlanOptions, plan};
-use faceformer_occt::build;
+use faceformer::identify::{Face, Identification};
+use faceformer::lift::{Lift, LiftOptions, depth_error, lift};
+use faceformer::plan::{Plan, PlanOptions, plan};
+use faceformer::readings;
+use faceformer_occt::{Solid, build};
 use serde::Serialize;
 
 use super::compare::{Compared, compare};
@@ -19,6 +20,9 @@ use crate::stages::FacesFrom;
 /// Largest depth error of a drawing that counts as lifted, in drawing units (the half diagonal of
 /// the solid's bounding box is 1).
 const DEPTH_TOLERANCE: f64 = 1e-3;
+
+/// Readings of which the best one counts, where the best of several is asked for.
+const TOP: usize = 3;
 
 /// A stage that refused a drawing, or whose result is wrong.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -54,6 +58,10 @@ pub(crate) struct Measured {
     pub(crate) corrupted: Option<Corrupted>,
     /// How the solid compares with the true one; `None` if there is no solid, or no truth.
     pub(crate) compared: Option<Compared>,
+    /// Whether an alternative was taken because the first reading has a fault.
+    pub(crate) exchanged: bool,
+    /// Whether the solid, or that of one of the first three readings, is the true one.
+    pub(crate) near_top3: bool,
     /// Whether there is a solid, and no true one to compare it with.
     pub(crate) no_truth: bool,
     /// Which kinds of surface the truth has, in the order of [`SurfaceKind::ALL`].
@@ -105,6 +113,8 @@ pub(crate) fn measure(
         failed: Vec::new(),
         corrupted: None,
         compared: None,
+        exchanged: false,
+        near_top3: false,
         no_truth: false,
         kinds: SurfaceKind::ALL.map(|kind| truth.faces.iter().any(|f| f.kind == kind)),
     };
@@ -165,6 +175,57 @@ pub(crate) fn measure_corrupted(
     measured
 }
 
+/// What came of one set of faces, with the times of its stages in milliseconds.
+struct Attempt {
+    lift: Option<Lift>,
+    lift_ms: f64,
+    solid_ms: f64,
+    built: Result<(Plan, Solid), (&'static str, String)>,
+}
+
+impl Attempt {
+    fn of(drawing: &Drawing, faces: &[Face]) -> Self {
+        let start = Instant::now();
+        let lifted = lift(drawing, faces, &LiftOptions::default(), Progress::none());
+        let lift_ms = milliseconds(start);
+        let start = Instant::now();
+        let built = match &lifted {
+            Ok(lifted) => plan(drawing, faces, lifted, &PlanOptions::default())
+                .map_err(|e| ("plan", e.to_string()))
+                .and_then(|plan| match build(&plan, Progress::none()) {
+                    Ok(solid) => Ok((plan, solid)),
+                    Err(error) => Err(("build", error.to_string())),
+                }),
+            Err(error) => Err(("lift", error.to_string())),
+        };
+        Self {
+            lift: lifted.ok(),
+            lift_ms,
+            solid_ms: milliseconds(start),
+            built,
+        }
+    }
+
+    fn fault(&self) -> Option<String> {
+        match &self.built {
+            Err((_, message)) => Some(readings::failure(message)),
+            Ok(_) => self.lift.as_ref().and_then(readings::conflict),
+        }
+    }
+
+    /// The solid beside the true one; `None` if there is no solid.
+    fn compare(
+        &self,
+        drawing: &Drawing,
+        truth: &Truth,
+        faces: &[Face],
+    ) -> Option<Result<Compared, String>> {
+        let (plan, solid) = self.built.as_ref().ok()?;
+        let lift = self.lift.as_ref()?;
+        Some(compare(drawing, truth, faces, lift, (plan, solid)))
+    }
+}
+
 fn measure_solid(
     drawing: &Drawing,
     truth: &Truth,
@@ -172,57 +233,61 @@ fn measure_solid(
     measured: &mut Measured,
     fail: &mut dyn FnMut(&'static str, String),
 ) {
-    let start = Instant::now();
-    let lifted = match lift(
-        drawing,
-        &found.faces,
-        &LiftOptions::default(),
-        Progress::none(),
-    ) {
-        Ok(lifted) => lifted,
-        Err(error) => return fail("lift", error.to_string()),
-    };
-    measured.lift_ms = Some(milliseconds(start));
-    let error = depth_error(&lifted, truth);
-    measured.lifted = error <= DEPTH_TOLERANCE;
-    if !measured.lifted {
-        fail("depth", format!("the depths are up to {error:.1e} off"));
-    }
-    let start = Instant::now();
-    let plan = match plan(drawing, &found.faces, &lifted, &PlanOptions::default()) {
-        Ok(plan) => plan,
-        Err(error) => return fail("plan", error.to_string()),
-    };
-    match build(&plan, Progress::none()) {
-        Ok(solid) => {
-            measured.valid = true;
-            measured.solid_ms = Some(milliseconds(start));
-            match compare(drawing, truth, &found.faces, &lifted, (&plan, &solid)) {
-                Ok(compared) => {
-                    if !compared.near {
-                        let by = compared.chamfer;
-                        fail(
-                            "chamfer",
-                            format!("the solid is {by:.1e} from the true one"),
-                        );
-                    }
-                    let (found, wanted) = (compared.faces, compared.true_faces);
-                    if found != wanted {
-                        fail(
-                            "faces",
-                            format!("the solid has {found}; the truth {wanted}"),
-                        );
-                    }
-                    measured.compared = Some(compared);
-                }
-                Err(why) => {
-                    measured.no_truth = true;
-                    fail("truth", why);
-                }
-            }
+    let taken = readings::take(
+        found,
+        readings::ALTERNATIVES,
+        |faces| Attempt::of(drawing, faces),
+        Attempt::fault,
+    );
+    measured.exchanged = taken.reading > 0;
+    let made = taken.result;
+    if let Some(lifted) = &made.lift {
+        measured.lift_ms = Some(made.lift_ms);
+        let error = depth_error(lifted, truth);
+        measured.lifted = error <= DEPTH_TOLERANCE;
+        if !measured.lifted {
+            fail("depth", format!("the depths are up to {error:.1e} off"));
         }
-        Err(error) => fail("build", error.to_string()),
     }
+    match &made.built {
+        Ok(_) => {
+            measured.valid = true;
+            measured.solid_ms = Some(made.solid_ms);
+        }
+        Err((stage, message)) => fail(stage, message.clone()),
+    }
+    match made.compare(drawing, truth, found.reading(taken.reading)) {
+        Some(Ok(compared)) => {
+            if !compared.near {
+                let by = compared.chamfer;
+                fail(
+                    "chamfer",
+                    format!("the solid is {by:.1e} from the true one"),
+                );
+            }
+            let (found, wanted) = (compared.faces, compared.true_faces);
+            if found != wanted {
+                fail(
+                    "faces",
+                    format!("the solid has {found}; the truth {wanted}"),
+                );
+            }
+            measured.compared = Some(compared);
+        }
+        Some(Err(why)) => {
+            measured.no_truth = true;
+            fail("truth", why);
+        }
+        None => {}
+    }
+    let near = |k: usize| {
+        let faces = found.reading(k);
+        let compared = Attempt::of(drawing, faces).compare(drawing, truth, faces);
+        compared.is_some_and(|c| c.is_ok_and(|c| c.near))
+    };
+    measured.near_top3 = measured.compared.as_ref().is_some_and(|c| c.near)
+        || (!measured.no_truth
+            && (0..TOP.min(1 + found.alternatives.len())).any(|k| k != taken.reading && near(k)));
 }
 
 fn milliseconds(start: Instant) -> f64 {

@@ -16,7 +16,7 @@ use super::{INK, QUIET};
 use crate::failure::Failure;
 use crate::output::Output;
 use crate::solid::make;
-use crate::stages::raise;
+use crate::stages::{tell, warn};
 
 /// A solid that stands as its drawing shows it.
 #[derive(Debug)]
@@ -28,23 +28,31 @@ pub(crate) struct Built {
 }
 
 impl Built {
-    /// Lifts the drawing, builds its solid and divides it into triangles. The triangles take their
-    /// way through the temporary file of `scratch`, which the picture overwrites later.
+    /// Lifts the drawing, builds its solid and divides it into triangles. The faces of the reading
+    /// that the solid is of take the place of those in `found`. The triangles take their way through
+    /// the temporary file of `scratch`, which the picture overwrites later.
     ///
     /// # Errors
     /// [`Failure`] of the stage that failed.
     pub(crate) fn new(
         drawing: &Drawing,
-        found: &Identification,
+        found: &mut Identification,
         flip: bool,
         scratch: &Output,
     ) -> Result<Self, Failure> {
-        let lift = raise(drawing, found, flip)?;
         let options = PlanOptions {
             orientation: Orientation::Drawn,
             ..PlanOptions::default()
         };
-        let (plan, solid) = make(drawing, found, &lift, &options)?;
+        let taken = make(drawing, found, flip, &options);
+        tell(taken.notice.as_slice());
+        let (plan, solid) = taken.result.built?;
+        let lift = taken.result.lift;
+        lift.iter().for_each(warn);
+        if let Some(k) = taken.reading.checked_sub(1) {
+            let other = &mut found.alternatives[k].faces;
+            std::mem::swap(&mut found.faces, other);
+        }
         let path = scratch.path()?;
         solid.write(path, Format::Stl)?;
         let read = |source| Failure::Read {
@@ -57,7 +65,7 @@ impl Built {
         Ok(Self {
             mesh,
             plan,
-            axes: lift.directions,
+            axes: lift.map(|l| l.directions).unwrap_or_default(),
             report: solid.report().clone(),
         })
     }

@@ -95,11 +95,11 @@ fn faces(args: &RenderArgs, output: &Output) -> Result<String, Failure> {
         ));
     };
     let drawing = usable(name)?;
-    let found = FacesFrom::new(&args.faces).faces(&drawing)?;
+    let mut found = FacesFrom::new(&args.faces).faces(&drawing)?;
     tell(&found.notices);
     let solid = args
         .solid
-        .then(|| Built::new(&drawing, &found, args.flip, output))
+        .then(|| Built::new(&drawing, &mut found, args.flip, output))
         .transpose()?;
     Ok(picture(args, &drawing, &found, solid.as_ref()).to_svg())
 }

@@ -84,6 +84,19 @@ pub struct Identification {
     pub vertices: Vec<f64>,
 }
 
+impl Identification {
+    /// Faces of a reading: 0 is the best set, 1 the first alternative.
+    ///
+    /// # Panics
+    /// If there is no such reading.
+    pub fn reading(&self, number: usize) -> &[Face] {
+        match number.checked_sub(1) {
+            None => &self.faces,
+            Some(k) => &self.alternatives[k].faces,
+        }
+    }
+}
+
 /// A method that finds the faces of a drawing.
 pub trait Engine: Send + Sync {
     /// Name on the command line and in results.

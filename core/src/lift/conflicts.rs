@@ -2,10 +2,12 @@
 //!
 //! - A planar face's vertices lie in its plane.
 //! - A cylinder's straight edges are along its axis.
-//! - No face has both co-edges of an edge, or one of them twice.
+//! - A face is nothing that is wrong by itself ([`evident`]).
+//! - Faces that were blamed so that the others agree are named in any case.
 
 use glam::DVec3;
 
+use super::evident::evident;
 use super::sheet::Sheet;
 use super::{Conflict, Surface};
 use crate::drawing::SurfaceKind;
@@ -13,8 +15,14 @@ use crate::drawing::SurfaceKind;
 /// Distance, in standard errors of a coordinate, from which on a vertex is off its surface.
 const OFF: f64 = 50.0;
 
-/// Conflicts of all faces, given depths and surfaces.
-pub(super) fn conflicts(sheet: &Sheet<'_>, depths: &[f64], surfaces: &[Surface]) -> Vec<Conflict> {
+/// Conflicts of all faces, given depths and surfaces. `blamed` are faces that the depths were found
+/// without.
+pub(super) fn conflicts(
+    sheet: &Sheet<'_>,
+    depths: &[f64],
+    surfaces: &[Surface],
+    blamed: &[usize],
+) -> Vec<Conflict> {
     let limit = OFF * sheet.directions.precision;
     let mut faces_at: Vec<Vec<usize>> = vec![Vec::new(); depths.len()];
     for (face, corners) in sheet.corners.iter().enumerate() {
@@ -32,8 +40,14 @@ pub(super) fn conflicts(sheet: &Sheet<'_>, depths: &[f64], surfaces: &[Surface])
             _ if sheet.faces[face].kind == SurfaceKind::Cylinder => askew(sheet, face, &place),
             _ => Vec::new(),
         };
+        if blamed.contains(&face) && sheet.is_planar(face) {
+            off.extend(off_most(&sheet.corners[face], &place, limit));
+        }
         off.retain(|(_, distance)| *distance > limit);
-        off.extend(doubled(sheet, face));
+        off.extend(evident(sheet, face).into_iter().map(|v| (v, 0.0)));
+        if off.is_empty() && blamed.contains(&face) {
+            off = sheet.corners[face].iter().map(|&v| (v, 0.0)).collect();
+        }
         if off.is_empty() {
             continue;
         }
@@ -91,14 +105,35 @@ fn askew(sheet: &Sheet<'_>, face: usize, place: &dyn Fn(usize) -> DVec3) -> Vec<
     straight.iter().flat_map(off).collect()
 }
 
-/// Ends of edges that a face holds twice.
-fn doubled(sheet: &Sheet<'_>, face: usize) -> Vec<(usize, f64)> {
-    let edges = sheet.faces[face].loops.iter().flatten().map(|c| c.edge());
-    let mut edges: Vec<usize> = edges.filter(|&e| e < sheet.drawing.edges.len()).collect();
-    edges.sort_unstable();
-    let twice = edges.windows(2).filter(|w| w[0] == w[1]);
-    twice
-        .flat_map(|w| sheet.drawing.edges[w[0]].v)
-        .map(|v| (v, 0.0))
-        .collect()
+/// Corners that a plane may be laid through, at most.
+const CORNERS: usize = 16;
+
+/// Distances of corners from the plane through three of them that most of them lie in.
+fn off_most(corners: &[usize], place: &dyn Fn(usize) -> DVec3, limit: f64) -> Vec<(usize, f64)> {
+    let points: Vec<DVec3> = corners.iter().map(|&v| place(v)).collect();
+    let some: Vec<DVec3> = points
+        .iter()
+        .copied()
+        .step_by(points.len().div_ceil(CORNERS).max(1))
+        .collect();
+    let mut best: Option<(usize, DVec3, DVec3)> = None;
+    for (i, &a) in some.iter().enumerate() {
+        for (j, &b) in some.iter().enumerate().skip(i + 1) {
+            for &c in &some[j + 1..] {
+                let Some(n) = (b - a).cross(c - a).try_normalize() else {
+                    continue;
+                };
+                let on = points.iter().filter(|p| (**p - a).dot(n).abs() < limit);
+                let count = on.count();
+                if best.is_none_or(|(most, ..)| count > most) {
+                    best = Some((count, a, n));
+                }
+            }
+        }
+    }
+    let Some((_, a, n)) = best else {
+        return Vec::new();
+    };
+    let distances = points.iter().map(|p| (*p - a).dot(n).abs());
+    corners.iter().copied().zip(distances).collect()
 }

@@ -6,12 +6,14 @@
 //! 4. every plane, cylinder, cone, sphere and torus gets its surface.
 
 mod assumed;
+mod blame;
 mod camera;
 mod circle;
 mod completion;
 mod conflicts;
 pub mod directions;
 mod error;
+mod evident;
 mod gauge;
 mod heights;
 mod metric;
@@ -104,7 +106,7 @@ fn lift_exact(
     for (i, reading) in readings.iter().enumerate() {
         progress.report(Stage::Lift, 0.2 + 0.8 * i as f64 / readings.len() as f64)?;
         let rival = explained(reading) == most;
-        if best.as_ref().is_some_and(|b| b.dropped() == 0) && !rival {
+        if best.as_ref().is_some_and(|b| b.contradictions == 0) && !rival {
             continue;
         }
         let reading = if options.flip {
@@ -136,44 +138,51 @@ fn lift_exact(
 struct Choice {
     reading: Directions,
     solved: Solved,
-    /// The faces taken apart, if `solved` is theirs.
-    split: Option<split::Split>,
+    /// The faces that `solved` is of, if they are not the given ones.
+    mended: Option<Mended>,
+    /// Number of rows that contradict it, and of faces left as they are though no depth makes them
+    /// right.
+    contradictions: usize,
     /// Whether no other reading explains more edges.
     rival: bool,
     posture: Posture,
 }
 
-impl Choice {
-    /// Number of rows that contradict it.
-    fn dropped(&self) -> usize {
-        self.solved.dropped()
-    }
+/// Faces in the place of the given ones, so that they agree.
+struct Mended {
+    /// The faces taken apart.
+    split: split::Split,
+    /// Which of the given faces were taken for something else.
+    blamed: Vec<usize>,
+}
 
+impl Choice {
     /// Whether this reading is to be believed rather than one before it, which is likelier by
     /// itself: if it has far fewer contradictions, or explains as much and stands more naturally.
     fn is_better_than(&self, other: &Self) -> bool {
-        2 * self.dropped() < other.dropped()
+        2 * self.contradictions < other.contradictions
             || (self.rival
                 && other.rival
-                && self.dropped() <= other.dropped()
+                && self.contradictions <= other.contradictions
                 && self.posture > other.posture)
     }
 
     fn finish(&self, drawing: &Drawing, faces: &[Face]) -> Lift {
         let sheet = Sheet::new(drawing, faces, &self.reading);
-        let Some(split) = &self.split else {
+        let Some(Mended { split, blamed }) = &self.mended else {
             return finish(&sheet, &self.solved);
         };
         let parts = Sheet::new(drawing, &split.faces, &self.reading);
         let mut lift = finish(&parts, &self.solved);
         lift.surfaces = gathered(&parts, split, &lift.surfaces, faces.len());
-        lift.conflicts = conflicts::conflicts(&sheet, &lift.depths, &lift.surfaces);
+        lift.conflicts = conflicts::conflicts(&sheet, &lift.depths, &lift.surfaces, blamed);
         lift.method = LiftMethod::L1;
         lift
     }
 }
 
-/// Solves one reading: as it is if its faces agree, else with the faces that do not taken apart.
+/// Solves one reading: as it is if its faces agree, else with the faces that do not taken apart, and
+/// the fewest of them taken for something else.
 fn choice(
     drawing: &Drawing,
     faces: &[Face],
@@ -183,32 +192,43 @@ fn choice(
     let sheet = Sheet::new(drawing, faces, &reading);
     let whole = solve::solve(&sheet);
     let posture = |sheet: &Sheet<'_>, solved: &Solved| Posture::of(sheet, |v| solved.height(v));
-    let agrees = whole.as_ref().is_ok_and(|w| w.dropped() == 0);
-    if !agrees
-        && faces.iter().any(|f| f.loops.len() > 1)
-        && let Some(split) = split::split(drawing, faces, &reading)
+    let evident: Vec<usize> = (0..faces.len())
+        .filter(|&f| !evident::evident(&sheet, f).is_empty())
+        .collect();
+    let contradictions = whole
+        .as_ref()
+        .map_or(usize::MAX, |w| w.dropped() + evident.len());
+    if contradictions > 0
+        && let Some(split) = split::split(drawing, faces, &evident, &reading)
+        && let broken = split.parts_of(&evident)
+        && let Ok(blame) = blame::blame(drawing, split.faces, &broken, &reading)
+        && blame.contradictions() < contradictions
     {
-        let parts = Sheet::new(drawing, &split.faces, &reading);
-        if let Ok(solved) = solve::solve(&parts)
-            && whole
-                .as_ref()
-                .map_or(true, |w| solved.dropped() < w.dropped())
-        {
-            return Ok(Choice {
-                posture: posture(&parts, &solved),
-                reading,
-                solved,
-                split: Some(split),
-                rival,
-            });
-        }
+        let parts = Sheet::new(drawing, &blame.faces, &reading);
+        let mut blamed: Vec<usize> = blame.wrong.iter().map(|&p| split.owners[p]).collect();
+        blamed.sort_unstable();
+        return Ok(Choice {
+            contradictions: blame.contradictions(),
+            posture: posture(&parts, &blame.solved),
+            reading,
+            mended: Some(Mended {
+                split: split::Split {
+                    faces: blame.faces,
+                    owners: split.owners,
+                },
+                blamed,
+            }),
+            solved: blame.solved,
+            rival,
+        });
     }
     let solved = whole?;
     Ok(Choice {
+        contradictions,
         posture: posture(&sheet, &solved),
         reading,
         solved,
-        split: None,
+        mended: None,
         rival,
     })
 }
@@ -246,7 +266,7 @@ fn finish(sheet: &Sheet<'_>, solved: &Solved) -> Lift {
         .map(|surface| surface.lowered(mean))
         .collect();
     Lift {
-        conflicts: conflicts::conflicts(sheet, &depths, &surfaces),
+        conflicts: conflicts::conflicts(sheet, &depths, &surfaces, &[]),
         depths,
         camera,
         surfaces,

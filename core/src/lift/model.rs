@@ -9,6 +9,7 @@ use super::{Camera, Regular};
 
 /// Options of lifting.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct LiftOptions {
     /// Take the Necker reversal of the default choice (the model seen from above).
     #[serde(default)]
@@ -86,8 +87,9 @@ pub enum LiftMethod {
     Regular,
 }
 
-/// A face that the lifted depths contradict.
+/// A face that the lifted depths contradict. In JSON it has its sentence as `message` as well.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(into = "ToldConflict")]
 pub struct Conflict {
     /// Face index, from 0.
     pub face: usize,
@@ -113,9 +115,37 @@ impl fmt::Display for Conflict {
     }
 }
 
-/// "face 3", "faces 3 and 9", "faces 3, 9 and 10".
+/// A [`Conflict`] as it is written.
+#[derive(Serialize)]
+struct ToldConflict {
+    face: usize,
+    vertices: Vec<usize>,
+    others: Vec<usize>,
+    residual: f64,
+    message: String,
+}
+
+impl From<Conflict> for ToldConflict {
+    fn from(conflict: Conflict) -> Self {
+        Self {
+            message: conflict.to_string(),
+            face: conflict.face,
+            vertices: conflict.vertices,
+            others: conflict.others,
+            residual: conflict.residual,
+        }
+    }
+}
+
+/// Numbers that a sentence lists; more would hide what it says.
+const MOST: usize = 8;
+
+/// "face 3", "faces 3 and 9", "faces 3, 9 and 10", and the count of the rest if there are too many.
 fn list(one: &str, several: &str, numbers: &[usize]) -> String {
-    let text: Vec<String> = numbers.iter().map(usize::to_string).collect();
+    let mut text: Vec<String> = numbers.iter().take(MOST).map(usize::to_string).collect();
+    if numbers.len() > MOST {
+        text.push(format!("{} more", numbers.len() - MOST));
+    }
     match text.split_last() {
         Some((last, [])) => format!("{one} {last}"),
         Some((last, rest)) => format!("{several} {} and {last}", rest.join(", ")),
@@ -168,5 +198,29 @@ mod tests {
             conflict(&[], &[1, 4, 5]).to_string(),
             "face 7 conflicts with itself at vertices 1, 4 and 5"
         );
+        let many: Vec<usize> = (0..11).collect();
+        assert_eq!(
+            conflict(&[0], &many).to_string(),
+            "face 7 conflicts with face 1 at vertices 0, 1, 2, 3, 4, 5, 6, 7 and 3 more"
+        );
+    }
+
+    #[test]
+    fn a_written_conflict_has_its_sentence() {
+        let conflict = Conflict {
+            face: 6,
+            vertices: vec![12],
+            others: vec![2, 8],
+            residual: 0.25,
+        };
+        let value = serde_json::to_value(&conflict).unwrap();
+        assert_eq!(
+            value,
+            serde_json::json!({
+                "face": 6, "vertices": [12], "others": [2, 8], "residual": 0.25,
+                "message": "face 7 conflicts with faces 3 and 9 at vertex 12",
+            })
+        );
+        assert_eq!(serde_json::from_value::<Conflict>(value).unwrap(), conflict);
     }
 }

@@ -39,6 +39,32 @@ impl Solved {
         self.active.iter().filter(|a| !**a).count()
     }
 
+    /// Faces at the rows that were dropped, with the number of these rows, most first.
+    pub(super) fn suspects(&self, sheet: &Sheet<'_>) -> Vec<(usize, usize)> {
+        let mut rows = vec![0; sheet.faces.len()];
+        let dropped = self.system.rows().iter().zip(&self.active);
+        for (row, _) in dropped.filter(|(_, active)| !**active) {
+            match row.tag {
+                Tag::Incidence { face, .. }
+                | Tag::Alignment { face }
+                | Tag::Disc { face }
+                | Tag::Revolved { face }
+                | Tag::Prism { face }
+                | Tag::Frustum { face }
+                | Tag::Generator { face } => rows[face] += 1,
+                Tag::Edge { edge } | Tag::Chord { edge } | Tag::Parallel { edge } => {
+                    let beside = sheet.neighbours(edge).iter();
+                    beside.for_each(|&face| rows[face] += 1);
+                }
+                Tag::Gauge => {}
+            }
+        }
+        let mut suspects: Vec<(usize, usize)> = rows.into_iter().enumerate().collect();
+        suspects.retain(|(_, count)| *count > 0);
+        suspects.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
+        suspects
+    }
+
     /// All heights, taken as known.
     pub(super) fn heights(&self, sheet: &Sheet<'_>) -> Heights {
         Heights {

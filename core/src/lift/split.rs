@@ -6,9 +6,10 @@
 //! only if their planes are parallel and, where depth already tells, the same. What is loose then
 //! is hung where it can be: into a face of the same slope around it.
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
 use super::directions::Directions;
+use super::evident::{encloses, is_around};
 use super::sheet::Sheet;
 use super::solve::{self, Solved};
 use crate::drawing::{CoEdge, Drawing};
@@ -29,8 +30,28 @@ pub(super) struct Split {
     pub(super) owners: Vec<usize>,
 }
 
-/// Takes faces apart where they conflict. `None` if the parts cannot be solved either.
-pub(super) fn split(drawing: &Drawing, faces: &[Face], reading: &Directions) -> Option<Split> {
+impl Split {
+    /// Parts of some of the given faces.
+    pub(super) fn parts_of(&self, faces: &[usize]) -> Vec<usize> {
+        let parts = 0..self.owners.len();
+        parts.filter(|&p| faces.contains(&self.owners[p])).collect()
+    }
+}
+
+/// Takes faces apart where they conflict. `broken` are faces that are wrong by themselves. `None` if
+/// the parts cannot be solved either.
+pub(super) fn split(
+    drawing: &Drawing,
+    faces: &[Face],
+    broken: &[usize],
+    reading: &Directions,
+) -> Option<Split> {
+    if faces.iter().all(|f| f.loops.len() < 2) {
+        return Some(Split {
+            faces: faces.to_vec(),
+            owners: (0..faces.len()).collect(),
+        });
+    }
     let (mut loops, mut owners) = (Vec::new(), Vec::new());
     for (owner, face) in faces.iter().enumerate() {
         for ring in &face.loops {
@@ -46,14 +67,19 @@ pub(super) fn split(drawing: &Drawing, faces: &[Face], reading: &Directions) -> 
     let normals: Vec<Option<DVec3>> = (0..loops.len())
         .map(|l| normal(&sheet, &solved, l))
         .collect();
+    // Of a face that is wrong by itself only what is drawn inside goes together.
+    let inside = |owner: usize, outer: usize, l: usize| {
+        !broken.contains(&owner) || is_around(drawing, &loops[outer].loops[0], &loops[l].loops[0])
+    };
     let mut parts: Vec<(usize, Vec<usize>)> = Vec::new();
     for l in 0..loops.len() {
         let home = parts.iter_mut().find(|(owner, members)| {
             *owner == owners[l]
                 && (!sheet.is_planar(l)
-                    || members
-                        .iter()
-                        .all(|&m| go_together(&sheet, &solved, [m, l], [normals[m], normals[l]])))
+                    || (inside(*owner, members[0], l)
+                        && members.iter().all(|&m| {
+                            go_together(&sheet, &solved, [m, l], [normals[m], normals[l]])
+                        })))
         });
         match home {
             Some((_, members)) => members.push(l),
@@ -121,8 +147,10 @@ fn hang(drawing: &Drawing, split: &mut Split, reading: &Directions) -> bool {
         return false;
     }
     let is_loose = |v: usize| loose.binary_search(&v).is_ok();
+    // A loop that was taken out of a face belongs somewhere else; any other one may be a face.
+    let homeless = |l: usize| split.owners[..l].contains(&split.owners[l]);
     let place = |v: usize| sheet.place(drawing.vertices[v], solved.height(v));
-    let mut best: Option<(f64, usize, usize)> = None;
+    let mut best: Option<((bool, f64), usize, usize)> = None;
     for (l, face) in split.faces.iter().enumerate() {
         let Some(&u) = sheet.corners[l].first() else {
             continue;
@@ -141,7 +169,8 @@ fn hang(drawing: &Drawing, split: &mut Split, reading: &Directions) -> bool {
             };
             let slope = normal(&sheet, &solved, h);
             let alike = slope.is_some_and(|m| m.cross(n).length() < PARALLEL);
-            if !alike || h == l || !encloses(drawing, &split.faces[h], &sheet.corners[l]) {
+            let around = |ring: &Vec<CoEdge>| encloses(drawing, ring, &sheet.corners[l]);
+            if !alike || h == l || !split.faces[h].loops.first().is_some_and(around) {
                 continue;
             }
             let rest = (0..drawing.vertices.len()).filter(|&w| !is_loose(w));
@@ -157,7 +186,8 @@ fn hang(drawing: &Drawing, split: &mut Split, reading: &Directions) -> bool {
                 .fold(0.0, f64::max);
             // Of alike ones the face nearest to the viewer.
             let far = 1e-6 * -sheet.place(sheet.middles[h], solved.height(v)).z;
-            let badness = outside + far + if face.loops.len() > 1 { 1e-3 } else { 0.0 };
+            let several = if face.loops.len() > 1 { 1e-3 } else { 0.0 };
+            let badness = (!homeless(l), outside + far + several);
             if best.is_none_or(|(least, ..)| badness < least) {
                 best = Some((badness, l, h));
             }
@@ -169,31 +199,4 @@ fn hang(drawing: &Drawing, split: &mut Split, reading: &Directions) -> bool {
     let copy: Vec<Vec<CoEdge>> = split.faces[l].loops.clone();
     split.faces[h].loops.extend(copy);
     true
-}
-
-/// Whether a face's first loop is drawn around all vertices.
-fn encloses(drawing: &Drawing, face: &Face, vertices: &[usize]) -> bool {
-    let Some(ring) = face.loops.first() else {
-        return false;
-    };
-    let mut outline: Vec<DVec2> = Vec::new();
-    for c in ring {
-        let Some(edge) = drawing.edges.get(c.edge()) else {
-            return false;
-        };
-        let mut points = edge.points.clone();
-        if c.is_reversed() {
-            points.reverse();
-        }
-        points.pop();
-        outline.extend(points);
-    }
-    let inside = |p: DVec2| {
-        let next = outline.iter().cycle().skip(1);
-        let crossings = outline.iter().zip(next).filter(|(a, b)| {
-            (a.y > p.y) != (b.y > p.y) && p.x < a.x + (b.x - a.x) * (p.y - a.y) / (b.y - a.y)
-        });
-        crossings.count() % 2 == 1
-    };
-    vertices.iter().all(|&v| inside(drawing.vertices[v]))
 }

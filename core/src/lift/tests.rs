@@ -180,6 +180,72 @@ fn faces_that_are_wrong_are_named() {
     );
 }
 
+/// Takes the first face of a kind from those given.
+fn take_face(faces: &mut Vec<Face>, kind: SurfaceKind) -> Face {
+    let at = faces.iter().position(|f| f.kind == kind).unwrap();
+    faces.remove(at)
+}
+
+#[test]
+fn a_wall_taken_for_one_with_a_hole_is_the_only_face_blamed() {
+    let size = DVec3::new(2.0, 1.5, 0.8);
+    let (drawing, right) = block_with_hole(view(), size, DVec2::new(0.9, 0.7), 0.4);
+    for confidence in [1.0, 0.1] {
+        let mut faces = right.clone();
+        let hole = take_face(&mut faces, SurfaceKind::Cylinder);
+        let top = faces
+            .iter()
+            .position(|f| f.edge_set().iter().any(|e| hole.edge_set().contains(e)))
+            .unwrap();
+        faces[top].loops.extend(hole.loops);
+        faces[top].confidence = confidence;
+        let found = lifted(&drawing, &faces);
+        assert!(error(&drawing, &found) < 1e-8);
+        let named: Vec<usize> = found.conflicts.iter().map(|c| c.face).collect();
+        assert_eq!(named, [top]);
+    }
+}
+
+#[test]
+fn a_cylinder_taken_for_a_plane_is_named() {
+    let (drawing, mut faces) = shaft(view(), &[(1.0, 0.5), (0.6, 2.0), (0.8, 0.3)]);
+    let wrong = faces
+        .iter()
+        .position(|f| f.kind == SurfaceKind::Cylinder)
+        .unwrap();
+    faces[wrong].kind = SurfaceKind::Plane;
+    let found = lifted(&drawing, &faces);
+    assert!(error(&drawing, &found) < 1e-8);
+    let named: Vec<usize> = found.conflicts.iter().map(|c| c.face).collect();
+    assert_eq!(named, [wrong]);
+    assert!(!found.conflicts[0].vertices.is_empty());
+}
+
+#[test]
+fn a_loop_in_the_wrong_face_is_hung_where_it_belongs() {
+    // A block with a blind pocket, which hangs on the block by one loop alone.
+    let mut scene = Scene::new(view());
+    let block = scene.prism(&polygon(&SQUARE), DVec3::Z * 0.9);
+    let pocket: Vec<DVec3> = polygon(&SQUARE)
+        .iter()
+        .map(|p| DVec3::new(0.3 + 0.4 * p.x, 0.3 + 0.4 * p.y, 0.4))
+        .collect();
+    let [floor, mouth] = scene.prism(&pocket, DVec3::Z * 0.5);
+    let [bottom, top] = block;
+    scene.face(SurfaceKind::Plane, &[bottom]);
+    scene.face(SurfaceKind::Plane, &[floor]);
+    scene.face(SurfaceKind::Plane, &[top, mouth]);
+    let (drawing, mut faces) = scene.finish();
+    assert!(error(&drawing, &lifted(&drawing, &faces)) < 1e-8);
+    let host = faces.len() - 1;
+    let taken = faces[host].loops.pop().unwrap();
+    faces[0].loops.push(taken);
+    let found = lifted(&drawing, &faces);
+    assert!(error(&drawing, &found) < 1e-8);
+    let named: Vec<usize> = found.conflicts.iter().map(|c| c.face).collect();
+    assert_eq!(named, [0], "{:?}", found.conflicts);
+}
+
 #[test]
 fn two_solids_have_no_common_depth() {
     let mut scene = Scene::new(view());

@@ -164,6 +164,14 @@ public:
         return Faces(out);
     }
 
+    /// Depths, surfaces and conflicts of the faces, as JSON; options as in faceformer_lift.
+    std::string lift(const Drawing &drawing, std::string_view options = "{}") const {
+        return detail::text([&](char **json, char **message) {
+            return faceformer_lift(drawing.get(), get(), options.data(), options.size(), nullptr,
+                                   nullptr, json, message);
+        });
+    }
+
     /// The faces with types, loops and confidences, as JSON.
     std::string json() const {
         return detail::text([this](char **json, char **message) {

@@ -15,6 +15,7 @@ mod faces;
 mod guard;
 mod info;
 mod input;
+mod lift;
 mod memory;
 mod progress;
 mod solid;
@@ -32,6 +33,7 @@ pub use faces::{
     faceformer_identify,
 };
 pub use info::{faceformer_abi_version, faceformer_info};
+pub use lift::faceformer_lift;
 pub use memory::{faceformer_bytes_free, faceformer_string_free};
 pub use progress::FaceformerProgress;
 pub use solid::{

@@ -4,8 +4,11 @@ use std::ffi::{c_char, c_void};
 use std::path::Path;
 use std::sync::Arc;
 
+use faceformer::drawing::Drawing;
+use faceformer::identify::Face;
 use faceformer::lift::{self, Lift, LiftOptions};
 use faceformer::plan::{self, Orientation, Plan, PlanOptions};
+use faceformer::readings::{self, Taken};
 use faceformer::{Progress, Stage};
 use faceformer_occt::{Format, OcctError, Solid, SolidReport};
 use serde::{Deserialize, Serialize};
@@ -29,6 +32,10 @@ pub struct FaceformerSolid {
     shape: Shape,
     lift: Lift,
     plan: Plan,
+    /// Which reading it is of: 0 is the best, 1 the first alternative.
+    reading: usize,
+    /// Why it is not the best one.
+    notice: Option<String>,
 }
 
 enum Shape {
@@ -43,6 +50,7 @@ struct SolidOptions {
     flip: bool,
     scale: f64,
     orientation: Orientation,
+    alternatives: usize,
 }
 
 impl Default for SolidOptions {
@@ -51,6 +59,7 @@ impl Default for SolidOptions {
             flip: false,
             scale: 1.0,
             orientation: Orientation::default(),
+            alternatives: 0,
         }
     }
 }
@@ -60,17 +69,21 @@ struct Report<'a> {
     partial: bool,
     report: Option<&'a SolidReport>,
     error: Option<String>,
+    reading: usize,
+    notices: &'a [String],
     lift: &'a Lift,
     plan: &'a Plan,
 }
 
 /// Makes a solid from a drawing and its faces: depth, plan, and OpenCASCADE's B-rep of it.
 ///
-/// `options_json` has `len` bytes: `{"flip": false, "scale": 1.0, "orientation": "upright"}`, every
-/// key optional, null for the defaults. `flip` takes the other of the two depths that a drawing
-/// without perspective has; `scale` is model units per drawing unit, above 0; `orientation` is
-/// "upright" (the model's axes along x, y, z) or "drawn" (as seen, z towards the viewer).
-/// `callback` is null or hears progress and may cancel; it gets `user`.
+/// `options_json` has `len` bytes: `{"flip": false, "scale": 1.0, "orientation": "upright",
+/// "alternatives": 0}`, every key optional, null for the defaults. `flip` takes the other of the two
+/// depths that a drawing without perspective has; `scale` is model units per drawing unit, above 0;
+/// `orientation` is "upright" (the model's axes along x, y, z) or "drawn" (as seen, z towards the
+/// viewer). If the faces conflict or give no solid, as many of their `alternatives` as that are tried
+/// in their order, and the first one without fault is taken; the report says so. Leave it at 0 where
+/// the user chose the faces. `callback` is null or hears progress and may cancel; it gets `user`.
 ///
 /// Returns `FACEFORMER_STATUS_FAILED` if depth or a valid closed solid cannot be had; the message
 /// names the face or edge. If OpenCASCADE had begun a shell by then, `*out` is NOT null but a
@@ -109,30 +122,37 @@ pub unsafe extern "C" fn faceformer_solid(
         // SAFETY: the callback may be called with `user` by this function's contract.
         let watcher = unsafe { Watcher::new(callback, user) };
         let report = |stage, share| watcher.report(stage, share);
-        let (lift, plan) = place(drawing, faces, &options, Progress::new(&report))?;
-        let (shape, outcome) = match faceformer_occt::build(&plan, Progress::new(&report)) {
-            Ok(solid) => (Shape::Whole(solid), Ok(())),
-            Err(error) if error.partial().is_some() => {
-                (Shape::Partial(error.clone()), Err(error.into()))
-            }
-            Err(error) => return Err(error.into()),
+        let taken = make(drawing, faces, &options, Progress::new(&report))?;
+        let Made { lift, plan, shape } = taken.result?;
+        let outcome = match &shape {
+            Shape::Whole(_) => Ok(()),
+            Shape::Partial(error) => Err(error.clone().into()),
         };
         out.put(Box::into_raw(Box::new(FaceformerSolid {
             shape,
             lift,
             plan,
+            reading: taken.reading,
+            notice: taken.notice,
         })));
         outcome
     })
 }
 
-/// Finds depth and plans the B-rep.
-fn place(
+/// What came of one set of faces.
+struct Made {
+    lift: Lift,
+    plan: Plan,
+    shape: Shape,
+}
+
+/// Makes the solid of the first reading without fault.
+fn make(
     drawing: &FaceformerDrawing,
     faces: &FaceformerFaces,
     options: &SolidOptions,
     progress: Progress<'_>,
-) -> Result<(Lift, Plan), CallError> {
+) -> Result<Taken<Result<Made, CallError>>, CallError> {
     if !Arc::ptr_eq(&drawing.0, &faces.drawing) {
         return Err(CallError::OtherDrawing);
     }
@@ -140,7 +160,21 @@ fn place(
     if !(scale.is_finite() && scale > 0.0) {
         return Err(CallError::Scale(scale));
     }
-    let (drawing, faces) = (&drawing.0.drawing, &faces.found.faces);
+    Ok(readings::take(
+        &faces.found,
+        options.alternatives,
+        |faces| attempt(&drawing.0.drawing, faces, options, progress),
+        fault,
+    ))
+}
+
+/// Finds depth, plans the B-rep and builds it, whole or in part.
+fn attempt(
+    drawing: &Drawing,
+    faces: &[Face],
+    options: &SolidOptions,
+    progress: Progress<'_>,
+) -> Result<Made, CallError> {
     let lift = lift::lift(
         drawing,
         faces,
@@ -149,16 +183,38 @@ fn place(
     )?;
     progress.report(Stage::Plan, 0.0)?;
     let plan_options = PlanOptions {
-        scale,
+        scale: options.scale,
         orientation: options.orientation,
     };
     let plan = plan::plan(drawing, faces, &lift, &plan_options)?;
-    Ok((lift, plan))
+    let shape = match faceformer_occt::build(&plan, progress) {
+        Ok(solid) => Shape::Whole(solid),
+        Err(error) if error.partial().is_some() => Shape::Partial(error),
+        Err(error) => return Err(error.into()),
+    };
+    Ok(Made { lift, plan, shape })
+}
+
+/// What is wrong with an attempt; nothing is if the caller stopped it.
+fn fault(made: &Result<Made, CallError>) -> Option<String> {
+    match made {
+        Ok(Made {
+            shape: Shape::Partial(error),
+            ..
+        }) => Some(readings::failure(error)),
+        Ok(made) => readings::conflict(&made.lift),
+        Err(error) if error.status() == FaceformerStatus::Cancelled => None,
+        Err(error) => Some(readings::failure(error)),
+    }
 }
 
 /// Tells how the solid came about and what it is, as a JSON object: `{"partial": false, "report":
-/// {"volume": ..., "area": ..., "face_counts": {"plane": 6, ...}, ...}, "error": null, "lift": ...,
-/// "plan": ...}`.
+/// {"volume": ..., "area": ..., "face_counts": {"plane": 6, ...}, ...}, "error": null, "reading": 0,
+/// "notices": [], "lift": ..., "plan": ...}`.
+///
+/// `reading` says which faces the solid has: 0 those of `faces`, 1 the first of their alternatives;
+/// if it is not 0, the one text in `notices` tells the user why. `lift` lists `conflicts` as
+/// `faceformer_lift` does.
 ///
 /// `lift` has the depth of every vertex of the drawing, `plan` the points, curves and surfaces the
 /// solid was built from. For a partial shell `partial` is true, `report` null and `error` the
@@ -180,7 +236,13 @@ pub unsafe extern "C" fn faceformer_solid_report(
     guard(&message, || {
         json.check()?;
         // SAFETY: a live handle or null by this function's contract.
-        let FaceformerSolid { shape, lift, plan } = unsafe { input::handle(solid, "solid") }?;
+        let FaceformerSolid {
+            shape,
+            lift,
+            plan,
+            reading,
+            notice,
+        } = unsafe { input::handle(solid, "solid") }?;
         let (report, error) = match shape {
             Shape::Whole(solid) => (Some(solid.report()), None),
             Shape::Partial(error) => (None, Some(error.to_string())),
@@ -189,6 +251,8 @@ pub unsafe extern "C" fn faceformer_solid_report(
             partial: report.is_none(),
             report,
             error,
+            reading: *reading,
+            notices: notice.as_slice(),
             lift,
             plan,
         })?);

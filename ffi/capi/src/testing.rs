@@ -130,6 +130,28 @@ impl Faces {
     }
 }
 
+/// Lifts and reads the answer.
+pub(crate) fn lift_json(
+    drawing: &Drawing,
+    faces: &Faces,
+    options: &str,
+) -> Called<serde_json::Value> {
+    // SAFETY: live handles and slots.
+    call_string(|json, message| unsafe {
+        faceformer_lift(
+            drawing.0,
+            faces.0,
+            options.as_ptr().cast(),
+            options.len(),
+            None,
+            ptr::null_mut(),
+            json,
+            message,
+        )
+    })
+    .map(|text| serde_json::from_str(&text).unwrap())
+}
+
 impl Solid {
     pub(crate) fn build(drawing: &Drawing, faces: &Faces, options: &str) -> Called<Self> {
         // SAFETY: live handles and slots.

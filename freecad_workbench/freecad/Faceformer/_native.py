@@ -64,6 +64,15 @@ _SIGNATURES = {
     "faceformer_identify": [c_void_p, c_char_p, c_size_t, _CALLBACK, c_void_p, _HANDLE_OUT],
     "faceformer_faces_read": [c_void_p, c_char_p, c_size_t, _HANDLE_OUT],
     "faceformer_faces_json": [c_void_p, _TEXT_OUT],
+    "faceformer_lift": [
+        c_void_p,
+        c_void_p,
+        c_char_p,
+        c_size_t,
+        _CALLBACK,
+        c_void_p,
+        _TEXT_OUT,
+    ],
     "faceformer_solid": [
         c_void_p,
         c_void_p,
@@ -128,6 +137,22 @@ class Drawing(_Handle):
         data = json.dumps(identification).encode()
         pointer = self.library.handle("faceformer_faces_read", None, self.pointer, data, len(data))
         return Faces(self.library, pointer, self.library.free("faces"))
+
+    def lift(self, faces: Faces, progress: Progress | None = None) -> dict[str, Any]:
+        """Depths, surfaces, and which of the faces conflict. May run in a thread."""
+        call = _Callback(progress)
+        return json.loads(
+            self.library.text(
+                "faceformer_lift",
+                self.pointer,
+                faces.pointer,
+                None,
+                0,
+                call.function,
+                None,
+                callback=call,
+            )
+        )
 
     def solid(self, faces: Faces, options: dict[str, Any], progress: Progress | None = None):
         """Builds the solid that has these faces. Long; may run in a thread."""
@@ -238,9 +263,9 @@ class Library:
             raise
         return pointer
 
-    def text(self, name: str, *arguments) -> str:
+    def text(self, name: str, *arguments, callback: _Callback | None = None) -> str:
         """Calls a function whose last own argument receives a string."""
-        return self._take(self.handle(name, None, *arguments)) or ""
+        return self._take(self.handle(name, callback, *arguments)) or ""
 
     def bytes(self, name: str, *arguments) -> bytes:
         """Calls a function whose last own arguments receive a buffer and its length."""

@@ -106,6 +106,8 @@ class Solid(Stateless):
         with progress_bar() as progress:
             identified = identify(drawn, obj.Engine, progress)
             built = pipeline.solid(identified, options_of(obj), progress)
+        if built.exchange:
+            FreeCAD.Console.PrintWarning(f"{obj.Label}: {built.exchange}\n")
         placement = drawn.placement if obj.Orientation == "As Drawn" else obj.Placement
         obj.Shape = shape_of(built)
         obj.Placement = placement

@@ -50,6 +50,10 @@ class Finding:
     edges: tuple[int, ...]
     """Edges of the source (from 0) that it is about."""
     points: tuple[Point, ...]
+    faces: tuple[int, ...] = ()
+    """Faces of the chosen reading (from 0) that it is about, the wrong one first."""
+    detail: str = ""
+    """What a tooltip says further."""
 
 
 @dataclass(frozen=True)

@@ -81,7 +81,7 @@ class Panel:
         global _open_panel
         self.session = session
         self._task: Task | None = None
-        self._patches: patches.Patches | None = None
+        self.patches: patches.Patches | None = None
         self._picker: Picker | None = None
         self._ok: Any = None
         self.form = PanelForm(session.engine, session.options())
@@ -197,11 +197,12 @@ class Panel:
             self.session.outcome = task.result()
         except Exception as error:  # a fault of the work itself is shown like any other
             self.session.outcome = Outcome(error=error)
-        self._show_outcome()
+        self.show_outcome()
 
     # Showing
 
-    def _show_outcome(self) -> None:
+    def show_outcome(self) -> None:
+        """Shows what the session knows now."""
         outcome = self.session.outcome
         count = len(outcome.identified.identification.readings) if outcome.identified else 0
         self.session.reading = min(self.session.reading, max(count - 1, 0))
@@ -217,15 +218,15 @@ class Panel:
         if drawing is None or view is None:
             self._remove_patches()
             return
-        if self._patches is None:
-            self._patches = patches.Patches(
+        if self.patches is None:
+            self.patches = patches.Patches(
                 view, self.session.drawn.placement, preferences.transparency()
             )
             self._picker = Picker(view, self.session.drawn.placement, self.form.faces.pick)
-        self._patches.show(drawing, faces)
+        self.patches.show(drawing, faces)
         self._picker.show([face.outline(drawing) for face in faces])
         for number, face in enumerate(faces):
-            self._patches.set_visible(number, face.key not in self.session.off)
+            self.patches.set_visible(number, face.key not in self.session.off)
 
     def _show_messages(self, error: BaseException | None = None) -> None:
         outcome = self.session.outcome
@@ -233,6 +234,7 @@ class Panel:
         if outcome.identified:
             notices = outcome.identified.identification.notices
             findings += [Finding("notice", text, (), ()) for text in notices]
+            findings = [*run(self.session.conflicts), *findings]
         if error is not None and not is_cancelled(error):
             FreeCAD.Console.PrintLog(f"Faceformer: {error}\n")
             if str(error) not in [finding.message for finding in findings]:
@@ -255,17 +257,17 @@ class Panel:
             self._ok.setEnabled(bool(self.session.faces()) and not self.busy())
 
     def _remove_patches(self) -> None:
-        if self._patches is not None:
-            self._patches.remove()
+        if self.patches is not None:
+            self.patches.remove()
             self._picker.remove()
-            self._patches = self._picker = None
+            self.patches = self._picker = None
 
     # What the user does
 
-    def _pick_face(self, number: int | None) -> None:
-        if self._patches is not None:
-            self._patches.mark([])
-            self._patches.highlight(number)
+    def _pick_faces(self, numbers: list[int]) -> None:
+        if self.patches is not None:
+            self.patches.mark([])
+            self.patches.highlight(numbers)
 
     def _switch_face(self, number: int, on: bool) -> None:
         key = self.session.faces()[number].key
@@ -273,16 +275,17 @@ class Panel:
             self.session.off.discard(key)
         else:
             self.session.off.add(key)
-        if self._patches is not None:
-            self._patches.set_visible(number, on)
+        if self.patches is not None:
+            self.patches.set_visible(number, on)
+        self._show_messages()
 
     def _pick_message(self, finding: Finding) -> None:
-        if self._patches is None:
+        if self.patches is None:
             return
-        self.form.faces.pick(None)
+        self.form.faces.pick(*finding.faces)
         edges = self.session.drawn.edges
         lines = [edges[k].points for k in finding.edges if k < len(edges)]
-        self._patches.mark(lines, finding.points)
+        self.patches.mark(lines, finding.points)
 
     def _choose_engine(self, engine: str) -> None:
         self.session.engine = engine
@@ -295,6 +298,7 @@ class Panel:
     def _choose_reading(self, number: int) -> None:
         self.session.reading = number
         self._show_faces()
+        self._show_messages()
 
     def _use_selection(self) -> None:
         links = selection.drawing_links() or self.session.links
@@ -319,6 +323,6 @@ class Panel:
         self.form.cancelled.connect(self._cancel)
         self.form.engine_chosen.connect(self._choose_engine)
         self.form.reading_chosen.connect(self._choose_reading)
-        self.form.face_picked.connect(self._pick_face)
+        self.form.faces_picked.connect(self._pick_faces)
         self.form.face_switched.connect(self._switch_face)
         self.form.message_picked.connect(self._pick_message)

@@ -17,7 +17,7 @@ class PanelForm(QtWidgets.QWidget):
     cancelled = QtCore.Signal()
     engine_chosen = QtCore.Signal(str)
     reading_chosen = QtCore.Signal(int)
-    face_picked = QtCore.Signal(object)
+    faces_picked = QtCore.Signal(object)
     face_switched = QtCore.Signal(int, bool)
     message_picked = QtCore.Signal(object)
 
@@ -30,7 +30,7 @@ class PanelForm(QtWidgets.QWidget):
         layout.setContentsMargins(4, 4, 4, 4)
         layout.addLayout(self._source_row())
         layout.addWidget(self._progress_row())
-        self.faces = FaceList(self.face_picked.emit, self.face_switched.emit)
+        self.faces = FaceList(self.faces_picked.emit, self.face_switched.emit)
         layout.addWidget(self.faces)
         self._messages_label = QtWidgets.QLabel(translate("Faceformer", "Messages"))
         layout.addWidget(self._messages_label)

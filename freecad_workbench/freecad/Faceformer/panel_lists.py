@@ -25,10 +25,11 @@ _ICONS = {"error": "SP_MessageBoxCritical", "warning": "SP_MessageBoxWarning"}
 class FaceList(QtWidgets.QTreeWidget):
     """Faces with their colour, type, number of edges and confidence."""
 
-    def __init__(self, picked: Callable[[int | None], None], switched: Callable[[int, bool], None]):
+    def __init__(self, picked: Callable[[list[int]], None], switched: Callable[[int, bool], None]):
         super().__init__()
         self._picked, self._switched = picked, switched
         self.setObjectName("Faceformer_Faces")
+        self.setSelectionMode(QtWidgets.QAbstractItemView.ExtendedSelection)
         self.setRootIsDecorated(False)
         self.setAlternatingRowColors(True)
         self.setUniformRowHeights(True)
@@ -62,13 +63,17 @@ class FaceList(QtWidgets.QTreeWidget):
             self.addTopLevelItem(self._row(number, face, face.key not in off))
         self.blockSignals(False)
 
-    def pick(self, number: int | None) -> None:
-        """Selects the row of a face, counted from 0."""
+    def pick(self, *numbers: int) -> None:
+        """Selects the rows of faces, counted from 0, and no other; the first one is in sight."""
+        self.blockSignals(True)
         self.clearSelection()
-        if number is not None and number < self.topLevelItemCount():
-            item = self.topLevelItem(number)
+        items = [self.topLevelItem(k) for k in numbers if k < self.topLevelItemCount()]
+        for item in items:
             item.setSelected(True)
-            self.scrollToItem(item)
+        self.blockSignals(False)
+        self._selection_changed()
+        if items:
+            self.scrollToItem(items[0])
 
     def _row(self, number: int, face: Face, on: bool) -> QtWidgets.QTreeWidgetItem:
         item = QtWidgets.QTreeWidgetItem(
@@ -88,8 +93,7 @@ class FaceList(QtWidgets.QTreeWidget):
         return item
 
     def _selection_changed(self) -> None:
-        items = self.selectedItems()
-        self._picked(self.indexOfTopLevelItem(items[0]) if items else None)
+        self._picked([self.indexOfTopLevelItem(item) for item in self.selectedItems()])
 
     def _item_changed(self, item: QtWidgets.QTreeWidgetItem, column: int) -> None:
         if column == 0:
@@ -98,7 +102,7 @@ class FaceList(QtWidgets.QTreeWidget):
 
 
 class MessageList(QtWidgets.QListWidget):
-    """Messages of the diagnosis; a click shows the lines that a message is about."""
+    """Messages; a click shows the lines, faces and points that a message is about."""
 
     def __init__(self, picked: Callable[[Finding], None]):
         super().__init__()
@@ -118,7 +122,9 @@ class MessageList(QtWidgets.QListWidget):
                 QtWidgets.QStyle, _ICONS.get(finding.severity, "SP_MessageBoxInformation")
             )
             item = QtWidgets.QListWidgetItem(self.style().standardIcon(icon), finding.message)
-            item.setToolTip(finding.message)
+            item.setToolTip(
+                f"{finding.message}\n{finding.detail}" if finding.detail else finding.message
+            )
             self.addItem(item)
         self.setVisible(bool(findings))
 

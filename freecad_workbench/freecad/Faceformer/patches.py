@@ -6,7 +6,7 @@ They live in the view's scene only: no document object, nothing to undo, nothing
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 
 import FreeCAD
 from pivy import coin
@@ -40,6 +40,8 @@ class Patches:
         self._materials: list[coin.SoMaterial] = []
         self._outlines: list[coin.SoSwitch] = []
         self._size = 1.0
+        self._highlighted: frozenset[int] = frozenset()
+        self._marked: list[Point] = []
         self._graph.addChild(self._root)
 
     def show(self, drawing: Drawing, faces: Sequence[Face]) -> None:
@@ -47,6 +49,7 @@ class Patches:
         self._faces_root.removeAllChildren()
         self._lines.removeAllChildren()
         self._marks.removeAllChildren()
+        self._highlighted, self._marked = frozenset(), []
         self._size = _size(drawing.vertices) or 1.0
         outlines = [face.outline(drawing) for face in faces]
         order = sorted(range(len(faces)), key=lambda k: -area(outlines[k]))
@@ -65,19 +68,21 @@ class Patches:
                 coin.SO_SWITCH_ALL if visible else (coin.SO_SWITCH_NONE)
             )
 
-    def highlight(self, number: int | None) -> None:
-        """Brings one face out and fades the others; None treats all alike."""
+    def highlight(self, numbers: Collection[int]) -> None:
+        """Brings some faces out and fades the others; without any all are alike."""
+        self._highlighted = frozenset(numbers)
         for k, material in enumerate(self._materials):
-            if number is None:
+            if not numbers:
                 material.transparency = self._transparency
             else:
-                material.transparency = 0.25 if k == number else 0.5 + self._transparency / 2
+                material.transparency = 0.25 if k in numbers else 0.5 + self._transparency / 2
             self._outlines[k].whichChild = (
-                coin.SO_SWITCH_ALL if k == number else coin.SO_SWITCH_NONE
+                coin.SO_SWITCH_ALL if k in numbers else coin.SO_SWITCH_NONE
             )
 
     def mark(self, lines: Iterable[Sequence[Point]], points: Iterable[Point] = ()) -> None:
         """Marks lines and points of the drawing that a message is about."""
+        self._marked = list(points)
         self._marks.removeAllChildren()
         height = (len(self._switches) + 3) * LIFT * self._size
         self._marks.addChild(_material(colours.ERROR, 0.0))
@@ -87,12 +92,20 @@ class Patches:
         self._marks.addChild(style)
         for line in lines:
             _add_polyline(self._marks, line, height, closed=False)
-        corners = [(x, y, height) for x, y in points]
+        corners = [(x, y, height) for x, y in self._marked]
         if corners:
             self._marks.addChild(_coordinates(corners))
             cloud = coin.SoPointSet()
             cloud.numPoints = len(corners)
             self._marks.addChild(cloud)
+
+    def highlighted(self) -> frozenset[int]:
+        """The faces that are brought out."""
+        return self._highlighted
+
+    def marked(self) -> list[Point]:
+        """The points that are marked."""
+        return self._marked
 
     def remove(self) -> None:
         """Takes everything out of the view again."""

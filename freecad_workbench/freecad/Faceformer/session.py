@@ -11,7 +11,7 @@ import FreeCAD
 from . import api, extract, feature, pipeline, preferences
 from .errors import FaceformerError, Failed
 from .i18n import translate
-from .model import Drawing, Face
+from .model import Drawing, Face, Finding
 from .transaction import transaction
 
 
@@ -64,6 +64,7 @@ class Session:
         """The identification as a function for a thread."""
         text, engine = self.drawn.to_json(), self.engine
         names = [edge.name for edge in self.drawn.edges]
+        reading, off = self.reading, set(self.off)
 
         def identify(progress: pipeline.Progress) -> Outcome:
             drawing = None
@@ -72,7 +73,12 @@ class Session:
                 identified = pipeline.identify(text, names, engine, progress)
             except FaceformerError as error:
                 return Outcome(drawing, None, error)
-            return Outcome(identified.identification.drawing, identified)
+            outcome = Outcome(identified.identification.drawing, identified)
+            # The panel asks for these next; here they do not keep the window waiting.
+            Session([], engine=engine, reading=reading, off=off, outcome=outcome).conflicts(
+                progress
+            )
+            return outcome
 
         return identify
 
@@ -80,6 +86,16 @@ class Session:
         """The user's choices for the solid, without faces that are not there any more."""
         off = tuple(sorted(self.off & {face.key for face in self.faces()}))
         return pipeline.SolidOptions(self.scale, self.flip, self.orientation, self.reading, off)
+
+    def conflicts(self, progress: pipeline.Progress | None = None) -> tuple[Finding, ...]:
+        """Which faces of the chosen reading contradict each other; none if depth cannot be had."""
+        if not self.faces():
+            return ()
+        try:
+            return pipeline.conflicts(self.outcome.identified, self.options(), progress)
+        except FaceformerError:
+            # Whatever it is, the attempt to convert says it.
+            return ()
 
     def build(self):
         """The solid as a function for a thread; its result goes to the store."""

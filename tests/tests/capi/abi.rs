@@ -27,6 +27,18 @@ type Identify = unsafe extern "C" fn(
     *mut Text,
 ) -> i32;
 
+type ReadFaces = unsafe extern "C" fn(Handle, *const c_char, usize, *mut Handle, *mut Text) -> i32;
+type Lift = unsafe extern "C" fn(
+    Handle,
+    Handle,
+    *const c_char,
+    usize,
+    Progress,
+    *mut c_void,
+    *mut Text,
+    *mut Text,
+) -> i32;
+
 /// The loaded library.
 pub(crate) struct Abi(Library);
 
@@ -48,6 +60,19 @@ impl Drop for Drawing<'_> {
                 .symbol::<unsafe extern "C" fn(Handle)>("faceformer_drawing_free")(
                 self.1
             )
+        };
+    }
+}
+
+/// A handle of faces, freed at the end.
+pub(crate) struct Faces<'a>(&'a Abi, Handle);
+
+impl Drop for Faces<'_> {
+    fn drop(&mut self) {
+        // SAFETY: the handle is live and freed once.
+        unsafe {
+            self.0
+                .symbol::<unsafe extern "C" fn(Handle)>("faceformer_faces_free")(self.1);
         };
     }
 }
@@ -112,8 +137,8 @@ impl Abi {
         serde_json::from_str(&self.take(json).unwrap()).unwrap()
     }
 
-    /// Identifies with the default engine and frees what it found.
-    pub(crate) fn identify(&self, drawing: &Drawing<'_>) -> Answer<()> {
+    /// Identifies with the default engine.
+    pub(crate) fn identify(&self, drawing: &Drawing<'_>) -> Answer<Faces<'_>> {
         let (mut out, mut message) = (ptr::dangling_mut(), ptr::dangling_mut());
         // SAFETY: a live handle, no options, no callback, live slots.
         let status = unsafe {
@@ -127,12 +152,70 @@ impl Abi {
                 &raw mut message,
             )
         };
-        // SAFETY: null or a live handle, freed once.
-        unsafe { self.symbol::<unsafe extern "C" fn(Handle)>("faceformer_faces_free")(out) };
+        self.faces(status, message, out)
+    }
+
+    pub(crate) fn read_faces(&self, drawing: &Drawing<'_>, json: &str) -> Answer<Faces<'_>> {
+        let (mut out, mut message) = (ptr::dangling_mut(), ptr::dangling_mut());
+        // SAFETY: a live handle, text that is valid for its length, live slots.
+        let status = unsafe {
+            self.symbol::<ReadFaces>("faceformer_faces_read")(
+                drawing.1,
+                json.as_ptr().cast(),
+                json.len(),
+                &raw mut out,
+                &raw mut message,
+            )
+        };
+        self.faces(status, message, out)
+    }
+
+    fn faces(&self, status: i32, message: Text, out: Handle) -> Answer<Faces<'_>> {
+        assert_eq!(out.is_null(), status != OK);
         Answer {
             status,
             message: self.take(message).unwrap_or_default(),
-            value: (!out.is_null()).then_some(()),
+            value: (!out.is_null()).then(|| Faces(self, out)),
+        }
+    }
+
+    /// The faces as JSON.
+    pub(crate) fn faces_json(&self, faces: &Faces<'_>) -> serde_json::Value {
+        let (mut json, mut message) = (ptr::null_mut(), ptr::null_mut());
+        // SAFETY: a live handle and live slots.
+        let status = unsafe {
+            self.symbol::<Report>("faceformer_faces_json")(faces.1, &raw mut json, &raw mut message)
+        };
+        assert_eq!(status, OK, "{:?}", self.take(message));
+        serde_json::from_str(&self.take(json).unwrap()).unwrap()
+    }
+
+    /// Depths, surfaces and conflicts as JSON.
+    pub(crate) fn lift(
+        &self,
+        drawing: &Drawing<'_>,
+        faces: &Faces<'_>,
+    ) -> Answer<serde_json::Value> {
+        let (mut json, mut message) = (ptr::dangling_mut(), ptr::dangling_mut());
+        // SAFETY: live handles, no options, no callback, live slots.
+        let status = unsafe {
+            self.symbol::<Lift>("faceformer_lift")(
+                drawing.1,
+                faces.1,
+                ptr::null(),
+                0,
+                None,
+                ptr::null_mut(),
+                &raw mut json,
+                &raw mut message,
+            )
+        };
+        Answer {
+            status,
+            message: self.take(message).unwrap_or_default(),
+            value: self
+                .take(json)
+                .map(|text| serde_json::from_str(&text).unwrap()),
         }
     }
 }

@@ -6,6 +6,7 @@
 
 mod abi;
 mod bad_input;
+mod conflicts;
 mod consumers;
 mod exports;
 mod library;

@@ -62,7 +62,7 @@ pub(super) fn lift(draft: &Draft<'_, '_>, violation: f64, snapped: Vec<Snap>) ->
         }
     }
     Lift {
-        conflicts: conflicts::conflicts(&after, &depths, &found),
+        conflicts: conflicts::conflicts(&after, &depths, &found, &[]),
         depths,
         camera,
         surfaces: found,

@@ -110,6 +110,29 @@ fn an_open_box_fails_by_name() {
 }
 
 #[test]
+fn an_alternative_is_taken_if_the_caller_allows_it() {
+    let (drawing, faces) = parts();
+    let right = faces.json();
+    let mut wrong = right.clone();
+    wrong["faces"].as_array_mut().unwrap().pop();
+    wrong["alternatives"] = serde_json::json!([{"faces": right["faces"]}]);
+    let faces = Faces::read(&drawing, &wrong.to_string()).unwrap();
+    for options in ["{}", r#"{"alternatives": 0}"#] {
+        let (status, _) = Built::build(&drawing, &faces, options).unwrap_err();
+        assert_eq!(status, FaceformerStatus::Failed);
+    }
+    let report = Built::build(&drawing, &faces, r#"{"alternatives": 3}"#)
+        .unwrap()
+        .report();
+    assert_eq!(report["reading"], 1);
+    let notice = report["notices"][0].as_str().unwrap();
+    assert!(
+        notice.starts_with("the second reading was taken: the first gives no solid: "),
+        "{notice}"
+    );
+}
+
+#[test]
 fn a_partial_shell_is_handed_over() {
     let (drawing, faces) = parts();
     let whole = Built::build(&drawing, &faces, "{}").unwrap();
@@ -126,6 +149,8 @@ fn a_partial_shell_is_handed_over() {
         shape,
         lift,
         plan,
+        reading: 0,
+        notice: None,
     })));
     let report = partial.report();
     assert_eq!(report["partial"], true);

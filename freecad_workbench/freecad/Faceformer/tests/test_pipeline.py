@@ -3,7 +3,16 @@ import unittest
 
 from ..errors import BadInput, Failed
 from ..model import Drawing, Identification
-from ..pipeline import SolidOptions, Store, chosen_faces, names_in_errors, with_names
+from ..pipeline import (
+    SolidOptions,
+    Store,
+    chosen_faces,
+    names_in_errors,
+    offered_faces,
+    told_conflicts,
+    with_names,
+    with_numbers,
+)
 from .test_model import NAMES, REPORT
 
 TWO = [{"type": "plane", "loops": [[1, 2, -3]]}, {"type": "cylinder", "loops": [[1, -1]]}]
@@ -18,6 +27,41 @@ class PipelineTest(unittest.TestCase):
         off = (self.identification.faces[0].key,)
         chosen = chosen_faces(self.identification, SolidOptions(off=off))
         self.assertEqual(chosen, {"engine": "varley", "faces": TWO[1:]})
+
+    def test_alternatives_are_offered_until_the_user_chooses(self):
+        offered = offered_faces(self.identification, SolidOptions())
+        self.assertEqual(offered["alternatives"], [{"faces": TWO[:1]}])
+        self.assertGreater(SolidOptions().native()["alternatives"], 0)
+        off = (self.identification.faces[0].key,)
+        for options in (SolidOptions(reading=1), SolidOptions(off=off)):
+            self.assertNotIn("alternatives", offered_faces(self.identification, options))
+            self.assertEqual(options.native()["alternatives"], 0)
+
+    def test_faces_in_messages_have_the_numbers_of_the_list(self):
+        text = "face 1 conflicts with faces 2, 3 and 7 more at vertices 1 and 3"
+        told = with_numbers(text, (2, 4, 5))
+        self.assertEqual(told, "face 2 conflicts with faces 4, 5 and 7 more at vertices 1 and 3")
+        told = with_numbers("edge 1 lies off the surface of face 3", (2, 4, 5))
+        self.assertEqual(told, "edge 1 lies off the surface of face 5")
+
+    def test_a_conflict_knows_its_faces_and_vertices(self):
+        lift = {
+            "conflicts": [
+                {
+                    "face": 0,
+                    "others": [],
+                    "vertices": [1],
+                    "residual": 0.1,
+                    "message": "face 1 conflicts with itself at vertex 1",
+                }
+            ]
+        }
+        off = (self.identification.faces[0].key,)
+        (found,) = told_conflicts(lift, self.identification, SolidOptions(off=off))
+        self.assertEqual(found.message, "Face 2 conflicts with itself at vertex 1")
+        self.assertEqual((found.severity, found.faces), ("warning", (1,)))
+        self.assertEqual(found.points, (self.identification.drawing.vertices[1],))
+        self.assertEqual(found.detail, "Edge1, Edge2, Edge4")
 
     def test_a_reading_is_chosen_by_its_number(self):
         chosen = chosen_faces(self.identification, SolidOptions(reading=1))
