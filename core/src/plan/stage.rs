@@ -27,6 +27,11 @@ const SNAP_MOST: f64 = 2e-3;
 /// kernel gets no larger tolerance.
 const LIMIT: f64 = 1e-4;
 
+/// Curves may be drawn this share of the size away from where their surfaces meet, and so many times
+/// the drawing's noise.
+const DRAWN_GAP: f64 = 0.02;
+const DRAWN_ERRORS: f64 = 4.0;
+
 /// A dominant direction and a model axis are the same within this angle, radians.
 const SAME_AXIS: f64 = 0.01;
 
@@ -83,12 +88,15 @@ pub fn plan(drawing: &Drawing, faces: &[Face], lift: &Lift, options: &PlanOption
         .collect();
 
     let measured = measured(drawing, faces, lift, &view, &lifted)?;
-    let mut snapped = snap(
-        &measured,
-        &smooth_pairs(drawing, &uses, &measured),
-        &axes,
-        snap_length,
-    );
+    let mut smooth = smooth_pairs(drawing, &uses, &measured);
+    if lift.regular.is_some() {
+        // Halves of one cylinder have one surface already, and others are different ones.
+        smooth.retain(|&[a, b]| {
+            let pair = [a, b].map(|f| measured[f].support);
+            pair[0] == pair[1] || !pair.iter().all(|s| matches!(s, Support::Cylinder { .. }))
+        });
+    }
+    let mut snapped = snap(&measured, &smooth, &axes, snap_length);
     notices.append(&mut snapped.notices);
     let incidence = Incidence::new(drawing, &uses, &snapped.of_face);
     touch::make_exact(&mut snapped.supports, &incidence.contacts(), snap_length);
@@ -130,8 +138,9 @@ pub fn plan(drawing: &Drawing, faces: &[Face], lift: &Lift, options: &PlanOption
             silhouette.then(|| silhouette::plane_of(&supports[a.face], ends, &view))?
         })
         .collect();
+    let noise = lift.regular.as_ref().map_or(0.0, |r| r.noise);
     let lengths = Lengths {
-        size,
+        drawn: DRAWN_GAP * size + DRAWN_ERRORS * noise,
         snap: snap_length,
         limit: LIMIT * size,
     };

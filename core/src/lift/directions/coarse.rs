@@ -14,11 +14,11 @@ use super::evidence::{CircleGroup, Evidence, Segment};
 use super::hypotheses::{Hypothesis, frames};
 use super::refine::aside;
 use super::{Axis, Directions, columns, towards_viewer};
-use crate::drawing::Drawing;
+use crate::drawing::{Curve2, Drawing};
 use crate::lift::Camera;
 
 /// Standard errors of coordinates that are tried, in units of the drawing's size.
-const PRECISIONS: [f64; 9] = [1e-6, 1e-5, 1e-4, 5e-4, 1e-3, 2e-3, 4e-3, 8e-3, 1.6e-2];
+const PRECISIONS: [f64; 6] = [5e-4, 1e-3, 2e-3, 4e-3, 8e-3, 1.6e-2];
 
 /// Hypotheses that are refined.
 const REFINED: usize = 16;
@@ -27,7 +27,16 @@ const REFINED: usize = 16;
 const STEPS: usize = 8;
 
 /// Readings that are given.
-const READINGS: usize = 3;
+const READINGS: usize = 4;
+
+/// Share of its size within which the coordinates of an exact drawing are right.
+const EXACT: f64 = 5e-6;
+
+/// Errors within which a curve may be an ellipse.
+const CURVE_ERRORS: f64 = 3.0;
+
+/// Groups of circles whose axes are tried alone.
+const ALONE: usize = 3;
 
 /// Share of the best reading's score that a reading has to have.
 const RIVAL: f64 = 0.75;
@@ -54,6 +63,8 @@ const LOUDER: f64 = 2.5;
 /// A frame with what it explains.
 struct Scored {
     frame: DMat3,
+    /// How many of its axes count: three, or the first alone.
+    axes: usize,
     score: f64,
 }
 
@@ -61,7 +72,7 @@ pub(super) fn candidates(drawing: &Drawing) -> Vec<Directions> {
     let size = drawing.size();
     let mut best: Option<(Evidence, Vec<Scored>)> = None;
     for relative in PRECISIONS {
-        let evidence = Evidence::new(drawing, relative * size);
+        let evidence = evidence(drawing, relative * size);
         let all = scored(&evidence);
         let top = |all: &[Scored]| all.first().map_or(f64::NEG_INFINITY, |s| s.score);
         if best.as_ref().is_none_or(|b| top(&all) > top(&b.1)) {
@@ -77,23 +88,62 @@ pub(super) fn candidates(drawing: &Drawing) -> Vec<Directions> {
         .enumerate()
         .take_while(|(i, s)| *i == 0 || s.score >= least)
         .take(READINGS)
-        .map(|(_, s)| reading(&evidence, &s.frame).seen_from_above())
+        .map(|(_, s)| reading(&evidence, s).seen_from_above())
         .collect();
     // Few edges agree with each other by chance more than with what they were meant to be.
-    let louder = Evidence::new(drawing, LOUDER * evidence.precision);
+    let louder = self::evidence(drawing, LOUDER * evidence.precision);
     if let Some(first) = all.first() {
-        let again = reading(&louder, &first.frame).seen_from_above();
+        let again = reading(&louder, first).seen_from_above();
         readings.insert(1.min(readings.len()), again);
     }
     readings
 }
 
-/// Frames, the one that explains most first.
+/// Whether a drawing's straight edges and arcs are exact: most edges have a parallel one, most arcs
+/// are ellipses. Whole circles are left out, as they are shifted but not bent by errors of their
+/// one vertex; so are other curves, which may be anything.
+pub(crate) fn is_exact(drawing: &Drawing) -> bool {
+    let within = EXACT * drawing.size();
+    let evidence = Evidence::new(drawing, within);
+    let clusters = evidence.clusters.iter().map(|c| c.members.len());
+    let partnered: usize = clusters.filter(|&n| n > 1).sum();
+    let arcs = drawing.edges.iter().filter_map(|e| match e.curve {
+        Curve2::Ellipse(arc) if e.v[0] != e.v[1] => Some(arc.residual < within),
+        _ => None,
+    });
+    let (sharp, all) = arcs.fold((0, 0), |(sharp, all), is| {
+        (sharp + usize::from(is), all + 1)
+    });
+    let straight = evidence.segments.len();
+    straight < 2 || 2 * (partnered + sharp) > straight + all
+}
+
+/// The evidence at one precision, with what may be a circle at it.
+fn evidence(drawing: &Drawing, precision: f64) -> Evidence {
+    Evidence::new(&recognised(drawing, precision), precision)
+}
+
+/// The drawing with curves recognised that are ellipses within the errors of its coordinates.
+pub(crate) fn recognised(drawing: &Drawing, precision: f64) -> Drawing {
+    let mut drawing = drawing.clone();
+    for edge in &mut drawing.edges {
+        if matches!(edge.curve, Curve2::Polyline)
+            && let curve @ Curve2::Ellipse(_) =
+                Curve2::recognise_within(&edge.points, CURVE_ERRORS * precision)
+        {
+            edge.curve = curve;
+        }
+    }
+    drawing
+}
+
+/// Frames and single axes, the one that explains most first.
 fn scored(evidence: &Evidence) -> Vec<Scored> {
     let mut starts: Vec<Scored> = frames(evidence)
         .into_iter()
         .map(|h: Hypothesis| Scored {
-            score: score(evidence, &h.frame, 2.0),
+            score: score(evidence, &h.frame, 3, 2.0),
+            axes: 3,
             frame: h.frame,
         })
         .collect();
@@ -108,13 +158,24 @@ fn scored(evidence: &Evidence) -> Vec<Scored> {
             continue;
         }
         tried.push(start.frame);
-        let frame = refined(evidence, start.frame);
+        let frame = refined(evidence, start.frame, 3);
         if !found.iter().any(|f| is_same(&f.frame, &frame)) {
             found.push(Scored {
-                score: score(evidence, &frame, 1.0),
+                score: score(evidence, &frame, 3, 1.0),
+                axes: 3,
                 frame,
             });
         }
+    }
+    // A shaft shows one axis.
+    for group in evidence.circles.iter().take(ALONE) {
+        let (u, v) = group.normal.any_orthonormal_pair();
+        let frame = refined(evidence, DMat3::from_cols(group.normal, u, v), 1);
+        found.push(Scored {
+            score: score(evidence, &frame, 1, 1.0),
+            axes: 1,
+            frame,
+        });
     }
     found.sort_by(|a, b| b.score.total_cmp(&a.score));
     found
@@ -122,12 +183,12 @@ fn scored(evidence: &Evidence) -> Vec<Scored> {
 
 /// What a frame explains, in natural logarithms of likelihood; errors are `loose` times as large
 /// as the drawing's for a frame that is not refined.
-fn score(evidence: &Evidence, frame: &DMat3, loose: f64) -> f64 {
+fn score(evidence: &Evidence, frame: &DMat3, axes: usize, loose: f64) -> f64 {
     let straight: f64 = evidence
         .segments
         .iter()
         .map(|s| {
-            (0..3)
+            (0..axes)
                 .map(|k| gain(evidence, s, frame.col(k), loose))
                 .fold(0.0, f64::max)
         })
@@ -136,16 +197,17 @@ fn score(evidence: &Evidence, frame: &DMat3, loose: f64) -> f64 {
         .circles
         .iter()
         .map(|g| {
-            let gains = (0..3).map(|k| round_gain(g, frame.col(k), loose));
+            let gains = (0..axes).map(|k| round_gain(g, frame.col(k), loose));
             gains.fold(0.0, f64::max) * (g.edges.len() as f64).min(CIRCLES)
         })
         .sum();
     let flat = columns(frame)
         .iter()
+        .take(axes)
         .filter(|a| a.z.abs() < FLATTEST)
         .count() as f64;
-    // Three edges fit some frame whatever they are.
-    let fitted = 3.0 * (0.3 * evidence.size / evidence.precision).ln();
+    // Three edges fit some frame whatever they are, and two numbers an axis.
+    let fitted = (axes as f64).max(2.0) * (0.3 * evidence.size / evidence.precision).ln();
     straight + round - FLAT * flat - fitted
 }
 
@@ -170,7 +232,7 @@ fn round_gain(group: &CircleGroup, axis: DVec3, loose: f64) -> f64 {
 }
 
 /// Gauss-Newton on SO(3) over what a frame explains at each step.
-fn refined(evidence: &Evidence, mut frame: DMat3) -> DMat3 {
+fn refined(evidence: &Evidence, mut frame: DMat3, axes: usize) -> DMat3 {
     for step in 0..STEPS {
         let loose = if step < STEPS / 2 { 2.0 } else { 1.0 };
         let (mut information, mut right) = (DMat3::from_diagonal(DVec3::splat(1.0)), DVec3::ZERO);
@@ -180,7 +242,7 @@ fn refined(evidence: &Evidence, mut frame: DMat3) -> DMat3 {
             right -= s * (residual / error);
         };
         for s in &evidence.segments {
-            let Some(k) = best(|k| gain(evidence, s, frame.col(k), loose)) else {
+            let Some(k) = best(axes, |k| gain(evidence, s, frame.col(k), loose)) else {
                 continue;
             };
             let (residual, slope) = aside(s.direction, frame.col(k));
@@ -188,7 +250,7 @@ fn refined(evidence: &Evidence, mut frame: DMat3) -> DMat3 {
             add(residual, slope, error);
         }
         for g in &evidence.circles {
-            let Some(k) = best(|k| round_gain(g, frame.col(k), loose)) else {
+            let Some(k) = best(axes, |k| round_gain(g, frame.col(k), loose)) else {
                 continue;
             };
             let n = frame.col(k);
@@ -210,23 +272,27 @@ fn refined(evidence: &Evidence, mut frame: DMat3) -> DMat3 {
 }
 
 /// The axis of the largest positive gain.
-fn best(gain: impl Fn(usize) -> f64) -> Option<usize> {
-    let found = (0..3)
+fn best(axes: usize, gain: impl Fn(usize) -> f64) -> Option<usize> {
+    let found = (0..axes)
         .map(|k| (gain(k), k))
         .max_by(|a, b| a.0.total_cmp(&b.0));
     found.filter(|(g, _)| *g > 0.0).map(|(_, k)| k)
 }
 
 /// Which edges and circles follow a frame's axes, where no other axis would do.
-fn reading(evidence: &Evidence, frame: &DMat3) -> Directions {
-    let mut axes = columns(frame).map(|direction| Axis {
-        direction: towards_viewer(direction),
-        edges: Vec::new(),
-        circles: Vec::new(),
-    });
+fn reading(evidence: &Evidence, found: &Scored) -> Directions {
+    let (frame, count) = (&found.frame, found.axes);
+    let mut axes: Vec<Axis> = columns(frame)[..count]
+        .iter()
+        .map(|&direction| Axis {
+            direction: towards_viewer(direction),
+            edges: Vec::new(),
+            circles: Vec::new(),
+        })
+        .collect();
     let clear = |gains: [f64; 3]| {
-        let k = best(|k| gains[k])?;
-        let rival = (0..3)
+        let k = best(count, |k| gains[k])?;
+        let rival = (0..count)
             .filter(|j| *j != k)
             .map(|j| gains[j])
             .fold(0.0, f64::max);
@@ -246,7 +312,7 @@ fn reading(evidence: &Evidence, frame: &DMat3) -> Directions {
         }
     }
     Directions {
-        axes: axes.into(),
+        axes,
         slanted: Vec::new(),
         camera: Camera::Parallel,
         error: 2.0 * information.max(1.0).sqrt().recip(),

@@ -7,8 +7,11 @@ use crate::drawing::{Curve2, Drawing, EllipseArc};
 /// Standard errors within which a measurement agrees with a prediction.
 pub(crate) const AGREE: f64 = 4.0;
 
-/// Arcs that are too short have axes less certain than this and are left out.
+/// Arcs that are too short have axes less certain than this and are left out; in a coarse drawing,
+/// than so many times its precision, as a share of its size.
 const UNCERTAIN: f64 = 0.01;
+const UNCERTAIN_BY_HAND: f64 = 20.0;
+const MOST_UNCERTAIN: f64 = 0.1;
 
 /// Circles seen from straight above, or outlines of spheres: their axis is the view's.
 const FACE_ON: f64 = 1.0 - 1e-4;
@@ -221,13 +224,15 @@ fn cluster(segments: &[Segment], precision: f64) -> Vec<Cluster> {
 }
 
 fn circles(drawing: &Drawing, precision: f64) -> Vec<CircleGroup> {
+    let by_hand = UNCERTAIN_BY_HAND * precision / drawing.size();
+    let uncertain = by_hand.clamp(UNCERTAIN, MOST_UNCERTAIN);
     let mut arcs: Vec<CircleGroup> = drawing
         .edges
         .iter()
         .enumerate()
         .filter_map(|(edge, e)| match e.curve {
             Curve2::Ellipse(arc)
-                if arc.uncertainty < UNCERTAIN
+                if arc.uncertainty < uncertain
                     && arc.residual < AGREE * precision
                     && arc.ratio < FACE_ON
                     && arc.ratio * arc.major.length() > 20.0 * precision =>

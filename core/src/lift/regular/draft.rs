@@ -254,6 +254,50 @@ impl<'a, 'b> Draft<'a, 'b> {
         faces.filter(move |(_, b)| **b == body).map(|(f, _)| f)
     }
 
+    /// Bodies that faces lie on and that say something.
+    fn used(&self) -> Vec<Body> {
+        let bodies = self.problem.bodies.iter().enumerate();
+        bodies
+            .filter(|(b, body)| body.shape != Shape::Open && self.faces(*b).next().is_some())
+            .map(|(_, body)| *body)
+            .collect()
+    }
+
+    /// Numbers that the fit is free to choose: of surfaces, and of the camera's turn.
+    pub(super) fn freedom(&self) -> usize {
+        let mut numbers = Vec::new();
+        for body in self.used() {
+            match body.shape {
+                Shape::Plane { offset } => numbers.push(offset),
+                // The place along the axis is none.
+                Shape::Cylinder { place, radius } => numbers.extend([place, place + 1, radius]),
+                Shape::Open => {}
+            }
+            match self.problem.dirs[body.dir] {
+                Dir::Fixed(_) => {}
+                Dir::Turn { angle, .. } => numbers.push(angle),
+                Dir::Free { at, .. } => numbers.extend([at, at + 1]),
+            }
+        }
+        numbers.sort_unstable();
+        numbers.dedup();
+        numbers.len() + 3
+    }
+
+    /// Share of the surfaces that are along a known direction.
+    pub(super) fn square_share(&self) -> f64 {
+        let used = self.used();
+        let square = used
+            .iter()
+            .filter(|b| matches!(self.problem.dirs[b.dir], Dir::Fixed(_)));
+        square.count() as f64 / used.len().max(1) as f64
+    }
+
+    /// Axes of the model that the drawing tells; others are arbitrary.
+    pub(super) fn axes(&self) -> usize {
+        self.sheet.directions.axes.len()
+    }
+
     /// Kind of a face.
     pub(super) fn kind(&self, face: usize) -> SurfaceKind {
         self.sheet.faces[face].kind

@@ -9,8 +9,10 @@
 //! little as it can. The result is a drawing that is exact ([`Regular`]) and its lift.
 
 mod common;
+mod concede;
 mod draft;
 mod fit;
+mod order;
 mod problem;
 mod redraw;
 mod report;
@@ -18,24 +20,39 @@ mod rounds;
 mod snaps;
 #[cfg(test)]
 mod tests;
+mod touches;
 
 pub use report::{Regular, Snap};
 
-use super::directions::Directions;
+use super::directions::{Directions, is_exact, recognised};
 use super::sheet::Sheet;
 use super::{Lift, LiftError, LiftMethod, LiftOptions, solve};
-use crate::drawing::{Curve2, Drawing, Projection};
+use crate::drawing::{Drawing, Projection};
 use crate::identify::Face;
 use draft::Draft;
-
-/// Errors within which a curve may be an ellipse.
-const CURVE_ERRORS: f64 = 3.0;
 
 /// A miss of this many errors counts no more than one of so many.
 const WILD: f64 = 5.0;
 
-/// A reading fits badly if vertices miss by more than this, squared errors in the mean.
-const BAD: f64 = 6.0;
+/// What a number that a reading leaves to the fit costs, in squared errors: between Akaike's 2 and
+/// the logarithm of the number of coordinates (Schwarz 1978).
+const FREEDOM: f64 = 3.0;
+
+/// What a condition that is missed by one error costs, and the most that it may.
+const OPEN: f64 = 100.0;
+const MOST_OPEN: f64 = 1000.0;
+
+/// What two neighbouring faces in one plane cost: the flat drawing fits itself.
+const FLAT: f64 = 30.0;
+
+/// Sine of the angle below which neighbouring planes are one.
+const BENT: f64 = 0.02;
+
+/// A reading is not doubted if its fit is no more than so many times as inexact as its directions,
+/// conditions miss by less than this, and that share of the planes and cylinders is square.
+const LOUD: f64 = 1.5;
+const CLOSED: f64 = 1e-7;
+const SQUARE: f64 = 0.9;
 
 /// A drawing whose coordinates are off by less than this share of its size is exact enough.
 const EXACT: f64 = 3e-4;
@@ -52,37 +69,45 @@ pub(super) fn lift(
     faces: &[Face],
     options: &LiftOptions,
 ) -> Result<Lift, LiftError> {
+    let exact = || LiftError::NoDirections("the drawing is exact".into());
     let readings = match drawing.projection {
+        Projection::Orthographic if is_exact(drawing) => return Err(exact()),
         Projection::Orthographic => Directions::coarse(drawing),
-        Projection::Perspective { .. } => Directions::candidates(drawing)?,
-    };
-    let mut best: Option<(f64, Lift)> = None;
-    let mut refusal = LiftError::NoDirections("no reading".into());
-    for reading in readings {
-        if reading.precision < EXACT * drawing.size() {
-            break;
+        Projection::Perspective { .. } => {
+            let mut readings = Directions::candidates(drawing)?;
+            readings.retain(|r| r.precision >= EXACT * drawing.size());
+            readings
         }
+    };
+    let mut tried: Vec<Attempt> = Vec::new();
+    let mut refusal = exact();
+    for reading in readings {
         let reading = if options.flip {
             reading.reversed()
         } else {
             reading
         };
-        let drawn = recognised(drawing, CURVE_ERRORS * reading.precision);
+        let drawn = recognised(drawing, reading.precision);
         match attempt(&drawn, faces, &reading) {
-            Ok((cost, lift)) => {
-                // Readings come by likelihood, and one that says less always fits.
-                let bad = cost > BAD * drawing.vertices.len() as f64;
-                if best.as_ref().is_none_or(|(least, _)| cost < 0.5 * least) {
-                    best = Some((cost, lift));
-                }
-                if !bad {
+            Ok(found) => {
+                let sure = found.is_sure();
+                tried.push(found);
+                if sure {
                     break;
                 }
             }
             Err(error) => refusal = error,
         }
     }
-    best.map(|(_, lift)| lift).ok_or(refusal)
+    // All are compared at one level of noise, which what is flat does not tell.
+    let told = tried.iter().filter(|a| a.flat == 0).map(|a| a.noise);
+    let noise = told
+        .chain(tried.iter().map(|a| 10.0 * a.noise))
+        .fold(f64::INFINITY, f64::min);
+    let best = tried
+        .into_iter()
+        .min_by(|a, b| a.cost(noise).total_cmp(&b.cost(noise)));
+    best.map(|found| found.lift).ok_or(refusal)
 }
 
 /// Whether a drawing may be inexact, from its lift as it is drawn.
@@ -95,33 +120,77 @@ pub(super) fn is_wanted(drawing: &Drawing, lift: Option<&Lift>) -> bool {
     !lift.is_some_and(exact)
 }
 
-/// The drawing with curves recognised that are ellipses within its noise.
-fn recognised(drawing: &Drawing, noise: f64) -> Drawing {
-    let mut drawing = drawing.clone();
-    for edge in &mut drawing.edges {
-        if matches!(edge.curve, Curve2::Polyline)
-            && let curve @ Curve2::Ellipse(_) = Curve2::recognise_within(&edge.points, noise)
-        {
-            edge.curve = curve;
-        }
-    }
-    drawing
+/// One reading made regular. Lengths are in sizes of the drawing.
+struct Attempt {
+    lift: Lift,
+    /// The level of noise that the fit shows.
+    noise: f64,
+    /// Whether that is about what the directions showed.
+    fits: bool,
+    /// Distances of vertices from where they are drawn.
+    misses: Vec<f64>,
+    /// Largest miss of a condition.
+    violation: f64,
+    /// Numbers left to the fit.
+    freedom: usize,
+    /// Edges between planes that are one.
+    flat: usize,
+    /// Share of the surfaces that are along known directions of a whole frame.
+    square: f64,
 }
 
-/// One reading made regular, and how badly it fits.
-fn attempt(
-    drawing: &Drawing,
-    faces: &[Face],
-    reading: &Directions,
-) -> Result<(f64, Lift), LiftError> {
+impl Attempt {
+    /// How badly it fits, in squared errors, if the drawing is that inexact.
+    fn cost(&self, noise: f64) -> f64 {
+        let misses = self.misses.iter().map(|m| (m / noise).min(WILD).powi(2));
+        misses.sum::<f64>()
+            + (OPEN * self.violation / noise).min(MOST_OPEN)
+            + FLAT * self.flat as f64
+            + FREEDOM * self.freedom as f64
+    }
+
+    /// Whether no other reading need be tried.
+    fn is_sure(&self) -> bool {
+        self.fits && self.flat == 0 && self.violation < CLOSED && self.square > SQUARE
+    }
+}
+
+/// Makes one reading regular.
+fn attempt(drawing: &Drawing, faces: &[Face], reading: &Directions) -> Result<Attempt, LiftError> {
     let sheet = Sheet::new(drawing, faces, reading);
     let solved = solve::solve_open(&sheet)?;
     let mut draft = Draft::new(&sheet, &solved.heights(&sheet))?;
-    let (fitted, snapped) = snaps::settle(&mut draft)?;
-    let noise = draft.noise;
-    let misses = fitted.misses.iter().take(drawing.vertices.len());
-    let cost: f64 = misses.map(|m| (m / noise).min(WILD).powi(2)).sum();
-    let open = fitted.violation / noise;
-    let lift = redraw::lift(&draft, fitted.violation, snapped);
-    Ok((cost + 100.0 * open.min(10.0), lift))
+    let fitted = snaps::settle(&mut draft)?;
+    let fitted = order::untangle(&mut draft, fitted);
+    let mut misses = fitted.misses;
+    misses.truncate(drawing.vertices.len());
+    Ok(Attempt {
+        noise: draft.noise,
+        fits: draft.noise < LOUD * reading.precision / drawing.size(),
+        violation: fitted.violation,
+        freedom: draft.freedom(),
+        flat: flat(&draft),
+        square: if reading.is_frame() {
+            draft.square_share()
+        } else {
+            0.0
+        },
+        lift: redraw::lift(&draft, fitted.violation, common::snapped(&draft)),
+        misses,
+    })
+}
+
+/// Number of edges between planes that are one.
+fn flat(draft: &Draft<'_, '_>) -> usize {
+    let edges = 0..draft.sheet.drawing.edges.len();
+    let is_flat = |e: &usize| {
+        draft.beside(*e).is_some_and(|[a, b]| {
+            let normals = [a, b].map(|s| {
+                let dir = draft.problem.bodies[s].dir;
+                draft.problem.direction(dir, &draft.problem.x)
+            });
+            draft.is_plane(a) && draft.is_plane(b) && normals[0].cross(normals[1]).length() < BENT
+        })
+    };
+    edges.filter(is_flat).count()
 }

@@ -84,6 +84,8 @@ pub(super) enum Condition {
     },
     /// A cylinder is seen edge-on at a point.
     Outline { point: usize, round: usize },
+    /// A plane is so far above another one of its direction.
+    Step { upper: usize, lower: usize, by: f64 },
 }
 
 /// Parameters and what they mean. The first three turn the camera.
@@ -217,6 +219,13 @@ impl Problem {
                 let d = self.place(to, x) - self.place(from, x);
                 d.dot(if second { w } else { u })
             }
+            Condition::Step { upper, lower, by } => {
+                let height = |body: usize| match self.bodies[body].shape {
+                    Shape::Plane { offset } => x[offset],
+                    _ => 0.0,
+                };
+                height(upper) - height(lower) - by
+            }
             Condition::Outline { point, round: r } => {
                 let (center, axis, _) = round(r);
                 let place = self.place(point, x);
@@ -249,6 +258,7 @@ impl Problem {
                 [Some(plane), Some(round)]
             }
             Condition::Nestle { a, b, .. } => [Some(a), Some(b)],
+            Condition::Step { upper, lower, .. } => [Some(upper), Some(lower)],
             Condition::Between { point: p, a, b } => {
                 point(p);
                 [Some(a), Some(b)]

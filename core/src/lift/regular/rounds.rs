@@ -4,6 +4,7 @@ use glam::{DVec2, DVec3};
 
 use super::draft::Draft;
 use super::problem::{Condition, Dir, Shape};
+use super::touches::touches;
 use crate::drawing::SurfaceKind;
 use crate::lift::circle_fit;
 
@@ -13,9 +14,14 @@ const SMOOTH: f64 = 0.82;
 /// Cosine of the angle within which a cylinder stands upright on a plane that cuts it in an arc.
 const UPRIGHT: f64 = 0.93;
 
+/// Cylinders are halves of one if they differ by less than this share of the radius: cylinders that
+/// touch differ by two radii, or are of another radius.
+const HALF: f64 = 0.4;
+
 pub(super) fn add_cylinders(draft: &mut Draft<'_, '_>) {
     let outlines = outlines(draft);
-    let groups = groups(draft, &outlines);
+    let halves = halves(draft, &outlines);
+    let groups = groups(draft, outlines.iter().chain(&halves));
     let mut added: Vec<(usize, Vec<usize>)> = Vec::new();
     for group in groups {
         let dir = direction(draft, &group);
@@ -103,6 +109,35 @@ fn outlines(draft: &Draft<'_, '_>) -> Vec<usize> {
     (0..sheet.drawing.edges.len()).filter(is_outline).collect()
 }
 
+/// Other straight edges between faces of cylinders that go on smoothly and are about one.
+fn halves(draft: &mut Draft<'_, '_>, outlines: &[usize]) -> Vec<usize> {
+    let mut found = Vec::new();
+    for e in 0..draft.sheet.drawing.edges.len() {
+        let [f, g] = *draft.sheet.neighbours(e) else {
+            continue;
+        };
+        let round = [f, g].map(|f| draft.kind(f) == SurfaceKind::Cylinder);
+        if round != [true; 2]
+            || !draft.sheet.is_straight(e)
+            || outlines.contains(&e)
+            || !is_smooth(draft, e, f, g)
+        {
+            continue;
+        }
+        let dir = direction(draft, &[f, g]);
+        let dir = draft.add_dir(dir);
+        let axis = draft.problem.direction(dir, &draft.problem.x);
+        let circles = [f, g].map(|f| circle(&boundary(draft, &[f], axis), axis));
+        if let [Some((p, r)), Some((q, s))] = circles {
+            let apart = (q - p).reject_from_normalized(axis).length();
+            if apart.max((r - s).abs()) < HALF * r.max(s) {
+                found.push(e);
+            }
+        }
+    }
+    found
+}
+
 /// Tangent of the curved edge of a face that leaves a vertex.
 fn curve_tangent(draft: &Draft<'_, '_>, face: usize, v: usize) -> Option<DVec2> {
     let sheet = draft.sheet;
@@ -129,7 +164,7 @@ fn leaving(draft: &Draft<'_, '_>, edge: usize, v: usize) -> Option<DVec2> {
 }
 
 /// Cylindrical faces that are parts of one.
-fn groups(draft: &Draft<'_, '_>, outlines: &[usize]) -> Vec<Vec<usize>> {
+fn groups<'a>(draft: &Draft<'_, '_>, joins: impl Iterator<Item = &'a usize>) -> Vec<Vec<usize>> {
     let faces = draft.sheet.faces.len();
     let mut root: Vec<usize> = (0..faces).collect();
     let find = |root: &[usize], mut i: usize| {
@@ -138,7 +173,7 @@ fn groups(draft: &Draft<'_, '_>, outlines: &[usize]) -> Vec<Vec<usize>> {
         }
         i
     };
-    for &e in outlines {
+    for &e in joins {
         if let [f, g] = *draft.sheet.neighbours(e) {
             let (f, g) = (find(&root, f), find(&root, g));
             root[f.max(g)] = f.min(g);
@@ -244,87 +279,9 @@ fn circle(points: &[DVec3], axis: DVec3) -> Option<(DVec3, f64)> {
     })
 }
 
-/// Planes and cylinders that touch along a straight edge: at an end the curve of the cylinder goes
-/// on smoothly into an edge of its neighbour.
-fn touches(draft: &mut Draft<'_, '_>) {
-    for e in 0..draft.sheet.drawing.edges.len() {
-        let (Some([a, b]), true) = (draft.beside(e), draft.sheet.is_straight(e)) else {
-            continue;
-        };
-        let [f, g] = *draft.sheet.neighbours(e) else {
-            continue;
-        };
-        if a == b || !(draft.is_round(a) || draft.is_round(b)) || !is_smooth(draft, e, f, g) {
-            continue;
-        }
-        let (first, round) = if draft.is_round(b) { (a, b) } else { (b, a) };
-        let ends = draft.sheet.drawing.edges[e].v;
-        let conditions = if draft.is_plane(first) {
-            touch(draft, first, round, ends)
-        } else if draft.is_round(first) {
-            nestle(draft, first, round, ends)
-        } else {
-            continue;
-        };
-        for condition in conditions.into_iter().flatten() {
-            if !draft.problem.conditions.contains(&condition) {
-                draft.problem.conditions.push(condition);
-            }
-        }
-    }
-}
-
-fn touch(
-    draft: &Draft<'_, '_>,
-    plane: usize,
-    round: usize,
-    ends: [usize; 2],
-) -> Option<[Condition; 3]> {
-    let (p, r) = (draft.problem.bodies[plane], draft.problem.bodies[round]);
-    let x = &draft.problem.x;
-    let across = draft
-        .problem
-        .direction(p.dir, x)
-        .dot(draft.problem.direction(r.dir, x));
-    if across.abs() > 0.1 {
-        return None;
-    }
-    let side = draft
-        .problem
-        .surface(plane, x)
-        .distance(draft.problem.surface(round, x).origin());
-    let side = side.signum();
-    let beside = |point| Condition::Beside {
-        point,
-        plane,
-        round,
-    };
-    Some([
-        Condition::Touch { plane, round, side },
-        beside(ends[0]),
-        beside(ends[1]),
-    ])
-}
-
-fn nestle(draft: &Draft<'_, '_>, a: usize, b: usize, ends: [usize; 2]) -> Option<[Condition; 3]> {
-    let x = &draft.problem.x;
-    let (one, two) = (draft.problem.surface(a, x), draft.problem.surface(b, x));
-    if one.direction().cross(two.direction()).length() > 1e-9 {
-        return None;
-    }
-    let middle = draft.place(ends[0]).midpoint(draft.place(ends[1]));
-    let outside = one.gradient(middle).dot(two.gradient(middle)) < 0.0;
-    let between = |point| Condition::Between { point, a, b };
-    Some([
-        Condition::Nestle { a, b, outside },
-        between(ends[0]),
-        between(ends[1]),
-    ])
-}
-
 /// Whether two faces go on smoothly into each other along an edge, as far as the edges at its ends
 /// show it.
-fn is_smooth(draft: &Draft<'_, '_>, edge: usize, f: usize, g: usize) -> bool {
+pub(super) fn is_smooth(draft: &Draft<'_, '_>, edge: usize, f: usize, g: usize) -> bool {
     let sheet = draft.sheet;
     let (mut smooth, mut all) = (0, 0);
     for v in sheet.drawing.edges[edge].v {

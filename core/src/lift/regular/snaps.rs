@@ -1,5 +1,5 @@
-//! What is decided after a first fit: conditions that contradict each other are given up, then
-//! directions, offsets, axes and radii that are nearly one become one.
+//! What is decided after a first fit: conditions that contradict each other are given up
+//! ([`concede`]), then directions, offsets, axes and radii that are nearly one become one.
 //!
 //! Each decision has to leave the drawing within its noise: a plane that turns may not take its
 //! corners farther than [`ERRORS`] errors away, and if the fit becomes much worse the decisions of
@@ -9,11 +9,11 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use super::common::{coplanar, snapped};
+use super::common::coplanar;
+use super::concede;
 use super::draft::Draft;
 use super::fit::{Fitted, judged};
-use super::problem::{Condition, Dir, Problem, Shape, angle_of, turn};
-use super::report::Snap;
+use super::problem::{Dir, Problem, Shape, angle_of, turn};
 use crate::lift::LiftError;
 
 /// Errors of the drawing within which things are one.
@@ -26,10 +26,7 @@ const LARGEST_TURN: f64 = 0.2;
 const SAME: f64 = 1e-9;
 
 /// Conditions that miss by more are not met.
-const BROKEN: f64 = 1e-7;
-
-/// Rounds of giving up conditions.
-const ROUNDS: usize = 5;
+pub(super) const BROKEN: f64 = 1e-7;
 
 /// The squared misses may become this many times as large, beside one squared error a vertex.
 const WORSE: f64 = 1.5;
@@ -38,14 +35,16 @@ const WORSE: f64 = 1.5;
 pub(super) const STEP: f64 = 15.0;
 
 /// Decides and fits again.
-pub(super) fn settle(draft: &mut Draft<'_, '_>) -> Result<(Fitted, Vec<Snap>), LiftError> {
+pub(super) fn settle(draft: &mut Draft<'_, '_>) -> Result<Fitted, LiftError> {
     let mut fitted = judged(&draft.problem);
-    for _ in 0..ROUNDS {
-        if fitted.violation < BROKEN || !give_up(draft) {
+    for _ in 0..concede::ROUNDS {
+        if fitted.violation < BROKEN || !concede::give_up(draft) {
             break;
         }
         fitted = draft.fit()?;
     }
+    draft.noise = draft.noise.max(concede::rms(draft, &fitted));
+    fitted = concede::relaxed(draft, fitted)?;
     for decide in [aligned, parallel, round, coplanar] {
         let before = (draft.problem.clone(), draft.start.clone());
         if !decide(draft) {
@@ -53,88 +52,16 @@ pub(super) fn settle(draft: &mut Draft<'_, '_>) -> Result<(Fitted, Vec<Snap>), L
         }
         let refit = draft.fit();
         let good = |new: &Fitted| {
-            let limit = WORSE * cost(draft, &fitted) + draft.sheet.drawing.vertices.len() as f64;
-            new.violation < BROKEN.max(fitted.violation) && cost(draft, new) < limit
+            let limit =
+                WORSE * concede::cost(draft, &fitted) + draft.sheet.drawing.vertices.len() as f64;
+            new.violation < BROKEN.max(fitted.violation) && concede::cost(draft, new) < limit
         };
         match refit {
             Ok(new) if good(&new) => fitted = new,
             _ => (draft.problem, draft.start) = before,
         }
     }
-    let snapped = snapped(draft);
-    Ok((fitted, snapped))
-}
-
-/// Sum of squared misses of vertices, in errors.
-fn cost(draft: &Draft<'_, '_>, fitted: &Fitted) -> f64 {
-    let misses = fitted
-        .misses
-        .iter()
-        .take(draft.sheet.drawing.vertices.len());
-    misses.map(|m| (m / draft.noise).powi(2)).sum()
-}
-
-/// Gives up what stands against the conditions that miss most: a touch, an outline, or else the
-/// direction of a plane; false if there is nothing left to give up. The draft starts again then.
-fn give_up(draft: &mut Draft<'_, '_>) -> bool {
-    let value = |c: &Condition| draft.problem.value(c, &draft.problem.x).abs();
-    let worst = draft
-        .problem
-        .conditions
-        .iter()
-        .map(value)
-        .fold(0.0, f64::max);
-    let is_bad = |c: &Condition| value(c) > 0.3 * worst;
-    let bad: Vec<Condition> = draft
-        .problem
-        .conditions
-        .iter()
-        .copied()
-        .filter(is_bad)
-        .collect();
-    let mut bodies: Vec<usize> = bad.iter().flat_map(bodies_of).collect();
-    bodies.sort_unstable();
-    bodies.dedup();
-    let soft = |c: &Condition| !matches!(c, Condition::On { .. });
-    let given: Vec<Condition> = draft
-        .problem
-        .conditions
-        .iter()
-        .copied()
-        .filter(|c| soft(c) && bodies_of(c).iter().any(|b| bodies.contains(b)))
-        .collect();
-    draft.problem = draft.start.clone();
-    if !given.is_empty() {
-        draft.problem.conditions.retain(|c| !given.contains(c));
-        return true;
-    }
-    let mut changed = false;
-    for b in bodies {
-        let dir = draft.problem.bodies[b].dir;
-        if !matches!(draft.problem.dirs[dir], Dir::Free { .. }) {
-            let base = draft.problem.direction(dir, &draft.problem.x);
-            free(draft, b, base);
-            changed = true;
-        }
-    }
-    changed
-}
-
-fn bodies_of(condition: &Condition) -> Vec<usize> {
-    match *condition {
-        Condition::On { body, .. } => vec![body],
-        Condition::Touch { plane, round, .. } | Condition::Beside { plane, round, .. } => {
-            vec![plane, round]
-        }
-        Condition::Nestle { a, b, .. } | Condition::Between { a, b, .. } => vec![a, b],
-        Condition::Outline { round, .. } | Condition::Along { round, .. } => vec![round],
-    }
-}
-
-fn free(draft: &mut Draft<'_, '_>, body: usize, base: DVec3) {
-    let at = draft.problem.add(&[0.0, 0.0]);
-    draft.problem.dirs.push(Dir::Free { base, at });
-    draft.problem.bodies[body].dir = draft.problem.dirs.len() - 1;
+    Ok(fitted)
 }
 
 /// Bodies with a direction, the largest first, with the distance of their corners from the middle.
@@ -174,10 +101,11 @@ fn aligned(draft: &mut Draft<'_, '_>) -> bool {
             Dir::Fixed(_) => None,
             Dir::Turn { axis, .. } => usual(draft, axis, reach, old),
             Dir::Free { .. } => {
-                let axes = DVec3::AXES.into_iter();
-                let axis = axes.clone().find(|&a| may_turn(draft, reach, old, a));
+                let axes = draft.axes();
+                let mut known = DVec3::AXES.into_iter().take(axes);
+                let axis = known.find(|&a| may_turn(draft, reach, old, a));
                 axis.map(Dir::Fixed).or_else(|| {
-                    let across = (0..3).find(|&k| {
+                    let across = (0..axes).find(|&k| {
                         let flat = old
                             .reject_from_normalized(DVec3::AXES[k])
                             .normalize_or_zero();
@@ -206,6 +134,9 @@ fn aligned(draft: &mut Draft<'_, '_>) -> bool {
 
 /// The direction around an axis at a usual angle.
 fn usual(draft: &Draft<'_, '_>, axis: usize, reach: f64, old: DVec3) -> Option<Dir> {
+    if draft.axes() < 3 {
+        return None;
+    }
     let degrees = angle_of(axis, old).to_degrees();
     let nearest = (degrees / STEP).round() * STEP;
     let quarter = (nearest / 90.0).round() * 90.0 == nearest;

@@ -17,10 +17,6 @@ use super::{Curve3, PlanError};
 
 use drawn::Drawn;
 
-/// How far a curve may be drawn from where its surfaces meet, as a share of the drawing's size:
-/// beyond it the surfaces are wrong.
-const DRAWN_GAP: f64 = 0.02;
-
 /// Surfaces that meet at a smaller angle (its sine) do not tell the tangent of their curve.
 const SLANT: f64 = 0.02;
 
@@ -125,7 +121,7 @@ fn fitted(
     let [start, end] = place.ends;
     let whole = place.drawn.v[0] == place.drawn.v[1];
     let (conic, gap) = drawn.sense(conic, start, end, whole);
-    if gap.is_nan() || gap > DRAWN_GAP * lengths.size {
+    if gap.is_nan() || gap > lengths.drawn {
         return Err(PlanError::Curve {
             edge: place.edge + 1,
             faces: place.faces.map(|f| f + 1),
@@ -195,7 +191,7 @@ fn through(
         }
     }
     let gap = drawn.gap(&points);
-    if gap.is_nan() || gap > DRAWN_GAP * lengths.size {
+    if gap.is_nan() || gap > lengths.drawn {
         return Err(PlanError::Curve {
             edge: place.edge + 1,
             faces: place.faces.map(|f| f + 1),
