@@ -1,7 +1,10 @@
 //! Ways to join a part to those that are placed.
 
+use std::collections::BTreeSet;
+
 use glam::DVec2;
 
+use super::alike::Twin;
 use super::body::{Place, fit};
 use super::links::{Link, LinkKind, PARALLEL};
 use super::score::{COUNT, Feature, JoinScorer, Row};
@@ -75,6 +78,10 @@ pub(super) struct Joiner<'a> {
     pub(super) links: &'a [Link],
     pub(super) scorer: &'a dyn JoinScorer,
     pub(super) main: usize,
+    /// For each part those that look like it.
+    pub(super) alike: Vec<Vec<Twin>>,
+    /// Pairs of loops, outer and inner, that have a link.
+    pub(super) joined: BTreeSet<(usize, usize)>,
 }
 
 impl Joiner<'_> {
@@ -187,6 +194,7 @@ impl Joiner<'_> {
         set(Feature::Clearance, mean(&|l| self.clearance(l)));
         set(Feature::Centred, mean(&|l| self.centred(l)));
         set(Feature::Aligned, mean(&|l| self.aligned(l, state)));
+        set(Feature::Alike, self.as_twins(part, list, state));
         set(Feature::Level, self.level(part, place, list, state));
         let depth_of = |l: &Link| {
             let a = &loops[l.outer];

@@ -11,6 +11,8 @@
 //! 6. [`search`]: the likeliest joins of all parts, and ranked alternatives,
 //! 7. [`chains`]: circles and silhouettes around one axis, matched all at once.
 
+mod alike;
+mod assemble;
 mod axis;
 mod body;
 mod chains;
@@ -21,6 +23,7 @@ mod search;
 mod shapes;
 #[cfg(test)]
 mod tests;
+mod trials;
 
 use crate::drawing::{Drawing, Graph};
 use crate::identify::Face;
@@ -46,7 +49,7 @@ pub(super) struct Grouping {
 /// Groups loops, each given as a face of one loop; the best grouping first, never none.
 pub(super) fn group(drawing: &Drawing, graph: &Graph, loops: &[Face]) -> Vec<Grouping> {
     let Ok(pieces) = Pieces::new(drawing, loops) else {
-        return vec![Grouping {
+            return vec![Grouping {
             faces: (0..loops.len()).map(|i| vec![i]).collect(),
             sureness: vec![1.0; loops.len()],
             round: vec![false; loops.len()],

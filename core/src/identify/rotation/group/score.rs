@@ -41,6 +41,7 @@ features! {
     Level 0.11: "Share of the part's other planes that are level with one that is placed.",
     Clearance 0.99: "Drawn distance between inner and outer loop, over the inner one's width.",
     Main -0.37: "The other part is the main one.",
+    Alike 2.0: "Share of the parts drawn alike that are joined alike, less those that are not.",
     Host -2.86: "The part placed hangs on this one.",
 }
 
