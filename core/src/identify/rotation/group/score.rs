@@ -31,6 +31,7 @@ features! {
     Pierced -0.88: "Share of other parts' points inside the part.",
     Boss -1.76: "The part is on the outer side of the face.",
     Through 2.17: "The part opens in two planes.",
+    Spread -1.50: "Difference of the moves that its links imply, over the tolerance.",
     Area 0.41: "Drawn width of the inner loop over that of the outer one in their plane.",
     Narrow 1.50: "The same for two circles of a surface of revolution.",
     Skips -2.00: "A third circle is drawn between two of a surface of revolution.",

@@ -7,6 +7,8 @@
 //! matched in pairs, or left alone, at the least total cost.
 
 mod matching;
+#[cfg(test)]
+mod tests;
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -128,6 +130,9 @@ impl Chain {
             let (Some(a), Some(b)) = (place(link.outer), place(link.inner)) else {
                 continue;
             };
+            if link.kind == LinkKind::Pierced {
+                continue;
+            }
             let off = rings[b].shift - rings[a].shift - link.offset;
             let (p, q) = (&shapes.loops[link.outer], &shapes.loops[link.inner]);
             let circles = shapes.parts[p.part].is_circle && shapes.parts[q.part].is_circle;
