@@ -199,9 +199,14 @@ pub(crate) struct EvalArgs {
     /// Make K faces of each drawing wrong on purpose, lift, and look whether they are named
     #[arg(long, value_name = "K", requires = "solids", conflicts_with = "noise")]
     pub(crate) corrupt: Option<usize>,
-    /// Shake the coordinates by normal noise of P percent of the drawing's size
-    #[arg(long, value_name = "P", requires = "solids")]
+    /// Shake the coordinates by normal noise of P percent of the drawing's size before its faces are
+    /// found
+    #[arg(long, value_name = "P")]
     pub(crate) noise: Option<f64>,
+    /// Let the ends of edges miss each other by up to P percent of the drawing's size, and find the
+    /// faces of what clean-up makes of these edges; after --noise if both are given
+    #[arg(long, value_name = "P", conflicts_with_all = ["corrupt", "solids"])]
+    pub(crate) gap: Option<f64>,
     /// Seed of what is spoilt on purpose
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub(crate) seed: u64,

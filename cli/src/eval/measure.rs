@@ -29,7 +29,7 @@ const TOP: usize = 3;
 pub(crate) struct Failed {
     /// The drawing.
     pub(crate) id: String,
-    /// `identify`, `lift`, `depth` (lifted, but not as in the truth), `conflict` (a wrong face is not
+    /// `clean` (clean-up made other edges), `identify`, `lift`, `depth` (lifted, but not as in the truth), `conflict` (a wrong face is not
     /// named), `plan`, `build`, `chamfer` (the solid is not the true one), `faces`
     /// (its faces are of other kinds) or `truth` (there is no
     /// true solid to compare with).
@@ -68,6 +68,26 @@ pub(crate) struct Measured {
     pub(crate) kinds: [bool; 6],
 }
 
+impl Measured {
+    /// A drawing of which nothing but the faces is known.
+    fn scored(score: DrawingScore, truth: &Truth) -> Self {
+        Self {
+            score,
+            lifted: false,
+            valid: false,
+            lift_ms: None,
+            solid_ms: None,
+            failed: Vec::new(),
+            corrupted: None,
+            compared: None,
+            exchanged: false,
+            near_top3: false,
+            no_truth: false,
+            kinds: SurfaceKind::ALL.map(|kind| truth.faces.iter().any(|f| f.kind == kind)),
+        }
+    }
+}
+
 /// What lifting said of faces that were made wrong on purpose.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Corrupted {
@@ -77,6 +97,17 @@ pub(crate) struct Corrupted {
     pub(crate) named: usize,
     /// Other faces in the report.
     pub(crate) accused: usize,
+}
+
+/// A drawing that clean-up made another one of, and why it is another one.
+pub(crate) fn refused(id: &str, truth: &Truth, why: String) -> Measured {
+    let mut measured = Measured::scored(DrawingScore::refused(truth), truth);
+    measured.failed.push(Failed {
+        id: id.to_owned(),
+        stage: "clean",
+        message: why,
+    });
+    measured
 }
 
 /// Takes a drawing through identification and, with `solids`, to its solid.
@@ -104,20 +135,7 @@ pub(crate) fn measure(
             DrawingScore::refused(truth)
         }
     };
-    let mut measured = Measured {
-        score,
-        lifted: false,
-        valid: false,
-        lift_ms: None,
-        solid_ms: None,
-        failed: Vec::new(),
-        corrupted: None,
-        compared: None,
-        exchanged: false,
-        near_top3: false,
-        no_truth: false,
-        kinds: SurfaceKind::ALL.map(|kind| truth.faces.iter().any(|f| f.kind == kind)),
-    };
+    let mut measured = Measured::scored(score, truth);
     if let (Ok(found), true) = (&found, solids) {
         measure_solid(drawing, truth, found, &mut measured, &mut fail);
     }

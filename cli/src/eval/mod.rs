@@ -16,7 +16,7 @@ use crate::output::{Output, finish, json_line, print};
 use crate::stages::FacesFrom;
 pub(crate) use bar::Bar;
 use figures::Figures;
-use measure::{Measured, measure, measure_corrupted};
+use measure::{Measured, measure, measure_corrupted, refused};
 use random::Random;
 
 /// Measures a data set and prints the figures.
@@ -30,12 +30,14 @@ pub(crate) fn run(args: &EvalArgs) -> Result<(), Failure> {
             "{name} holds the faces of one drawing; eval takes --faces truth, or --engine"
         )));
     }
-    if let Some(percent) = args.noise
-        && !(percent.is_finite() && percent > 0.0)
-    {
-        return Err(Failure::Usage(format!(
-            "--noise must be a positive percentage, and is {percent}"
-        )));
+    for (name, percent) in [("noise", args.noise), ("gap", args.gap)] {
+        if let Some(percent) = percent
+            && !(percent.is_finite() && percent > 0.0)
+        {
+            return Err(Failure::Usage(format!(
+                "--{name} must be a positive percentage, and is {percent}"
+            )));
+        }
     }
     let failures = args.failures.as_deref().map(Output::create).transpose()?;
     let bad_input = |source| Failure::Drawing {
@@ -61,14 +63,17 @@ pub(crate) fn run(args: &EvalArgs) -> Result<(), Failure> {
             continue;
         }
         let mut random = Random::new(args.seed, &drawing.id);
-        measured.push(match (args.corrupt, args.noise) {
-            (Some(count), _) => measure_corrupted(&drawing, truth, &faces, count, &mut random),
-            (None, Some(percent)) => {
-                let mut shaken = drawing.clone();
-                spoil::shake(&mut shaken, percent / 100.0, &mut random);
-                measure(&shaken, truth, &faces, args.solids)
-            }
-            (None, None) => measure(&drawing, truth, &faces, args.solids),
+        let mut spoilt = drawing.clone();
+        if let Some(percent) = args.noise {
+            spoil::shake(&mut spoilt, percent / 100.0, &mut random);
+        }
+        measured.push(match (args.corrupt, args.gap) {
+            (Some(count), _) => measure_corrupted(&spoilt, truth, &faces, count, &mut random),
+            (None, Some(percent)) => match spoil::part(&spoilt, percent / 100.0, &mut random) {
+                Ok(cleaned) => measure(&cleaned, truth, &faces, args.solids),
+                Err(why) => refused(&drawing.id, truth, why),
+            },
+            (None, None) => measure(&spoilt, truth, &faces, args.solids),
         });
         bar.advance(measured.len());
     }

@@ -1,6 +1,6 @@
 //! Faces and coordinates spoilt on purpose, to see what lifting survives.
 
-use faceformer::drawing::{Curve2, Drawing, SurfaceKind};
+use faceformer::drawing::{Curve2, Drawing, Limits, SurfaceKind, mend};
 use faceformer::identify::Face;
 use glam::DVec2;
 
@@ -91,9 +91,53 @@ pub(crate) fn shake(drawing: &mut Drawing, share: f64, random: &mut Random) {
     }
 }
 
+/// Moves every end of every edge on its own, curves with their ends, so that ends that were one point
+/// miss each other by up to a share of the drawing's size, and cleans up what is left: edges without
+/// vertices. The edges keep their numbers, and the drawing loses its truth.
+///
+/// # Errors
+/// What clean-up made otherwise, if it did not give one edge for each.
+pub(crate) fn part(drawing: &Drawing, share: f64, random: &mut Random) -> Result<Drawing, String> {
+    let reach = share * drawing.size() / 2.0;
+    // Evenly over a disc.
+    let mut step = || {
+        let (radius, turn) = (random.unit().sqrt(), random.unit());
+        DVec2::from_angle(turn * std::f64::consts::TAU) * radius * reach
+    };
+    let polylines: Vec<Vec<DVec2>> = drawing
+        .edges
+        .iter()
+        .map(|edge| {
+            let (from, to) = (step(), step());
+            let last = (edge.points.len() - 1) as f64;
+            let points = edge.points.iter().enumerate();
+            points
+                .map(|(i, p)| *p + from.lerp(to, i as f64 / last))
+                .collect()
+        })
+        .collect();
+    let cleaned = mend(&polylines, &Limits::default()).map_err(|e| e.to_string())?;
+    let mut edges = vec![None; drawing.edges.len()];
+    for (edge, sources) in cleaned.drawing.edges.into_iter().zip(&cleaned.sources) {
+        match sources.as_slice() {
+            [only] if edges[*only].is_none() => edges[*only] = Some(edge),
+            several => return Err(format!("edges {several:?} were joined or cut")),
+        }
+    }
+    let edges: Option<Vec<_>> = edges.into_iter().collect();
+    Ok(Drawing {
+        id: drawing.id.clone(),
+        source: drawing.source.clone(),
+        projection: drawing.projection,
+        vertices: cleaned.drawing.vertices,
+        edges: edges.ok_or("an edge was lost")?,
+        truth: None,
+    })
+}
+
 #[cfg(test)]
 mod tests {
-    use faceformer::drawing::CoEdge;
+    use faceformer::drawing::{CoEdge, Edge};
     use faceformer::identify::Evidence;
 
     use super::*;
@@ -105,6 +149,45 @@ mod tests {
             loops: edges.iter().map(walk).collect(),
             confidence: 1.0,
             evidence: Evidence::default(),
+        }
+    }
+
+    /// A prism over a triangle, drawn.
+    fn prism() -> Drawing {
+        let base = [(0.0, 0.0), (1.0, 0.1), (0.4, 0.7)].map(|(x, y)| DVec2::new(x, y));
+        let top = base.map(|p| p + DVec2::new(0.3, 1.5));
+        let vertices: Vec<DVec2> = base.into_iter().chain(top).collect();
+        let ends = [0, 1, 2].map(|i| [i, (i + 1) % 3]);
+        let upper = ends.map(|v| v.map(|i| i + 3));
+        let risers = [0, 1, 2].map(|i| [i, i + 3]);
+        let edge = |v: [usize; 2]| Edge {
+            v,
+            points: v.map(|i| vertices[i]).to_vec(),
+            curve: Curve2::Line,
+        };
+        Drawing {
+            id: "prism".to_owned(),
+            source: String::new(),
+            projection: faceformer::drawing::Projection::Orthographic,
+            edges: [ends, upper, risers]
+                .concat()
+                .into_iter()
+                .map(edge)
+                .collect(),
+            vertices,
+            truth: None,
+        }
+    }
+
+    #[test]
+    fn small_gaps_are_closed_and_edges_keep_their_numbers() {
+        let prism = prism();
+        let mended = part(&prism, 1e-4, &mut Random::new(1, "prism")).unwrap();
+        assert_eq!(mended.vertices.len(), 6);
+        for (a, b) in prism.edges.iter().zip(&mended.edges) {
+            let middle = |e: &Edge| (e.points[0] + e.points[1]) / 2.0;
+            assert!(middle(a).distance(middle(b)) < 1e-3);
+            assert_ne!(a.points, b.points);
         }
     }
 

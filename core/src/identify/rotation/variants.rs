@@ -122,3 +122,62 @@ const SLIT: f64 = 6.0;
 
 /// Log-odds against a handle.
 const HANDLE: f64 = 1.5;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Progress;
+    use crate::drawing::Drawing;
+    use crate::identify::rotation::samples;
+    use crate::identify::rotation::{HandScorer, TripleScorer, Triples};
+
+    /// Calls `look` with the readings of a drawing.
+    fn read(drawing: &Drawing, look: impl Fn(&Graph, Vec<Variant>)) {
+        let graph = Graph::new(drawing);
+        let triples = Triples::new(&graph);
+        let scores = HandScorer::default()
+            .score(drawing, &graph, &triples, Progress::none())
+            .unwrap();
+        let field = Field::new(&graph, &triples, &scores.log_odds);
+        let system = field.decode();
+        let doubts = Doubts::new(&field, &system);
+        look(&graph, variants(&field, system, &doubts));
+    }
+
+    #[test]
+    fn readings_differ_and_the_best_is_first() {
+        for drawing in [samples::cube(), samples::pyramid(), samples::two_arcs()] {
+            read(&drawing, |graph, all| {
+                assert_eq!(all[0].loss, 0.0);
+                assert!(all.len() <= MOST + 1);
+                let losses: Vec<f64> = all.iter().map(|v| v.loss).collect();
+                assert!(losses.is_sorted() && losses.iter().all(|l| *l < WORST));
+                let keys: BTreeSet<_> = all.iter().map(|v| key(&v.system)).collect();
+                assert_eq!(keys.len(), all.len());
+                for variant in &all {
+                    let mut used: Vec<usize> = variant
+                        .system
+                        .loops()
+                        .concat()
+                        .iter()
+                        .map(|c| c.index())
+                        .collect();
+                    used.sort_unstable();
+                    let every: Vec<usize> = (0..2 * graph.edge_count()).collect();
+                    assert_eq!(used, every);
+                }
+            });
+        }
+    }
+
+    #[test]
+    fn a_handle_or_a_slit_is_less_plausible() {
+        read(&samples::cube(), |graph, all| {
+            let right = &all[0].system;
+            assert_eq!(plausibility(graph, right), 0.0);
+            let mut wrong = right.clone();
+            wrong.reverse(graph, 0);
+            assert!(plausibility(graph, &wrong) < -1.0);
+        });
+    }
+}

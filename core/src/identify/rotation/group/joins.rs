@@ -1,9 +1,10 @@
 //! Ways to join a part to those that are placed.
 
-use glam::DVec2;
+use std::collections::BTreeSet;
 
+use super::alike::Twin;
 use super::body::{Place, fit};
-use super::links::{Link, LinkKind, PARALLEL};
+use super::links::{Link, LinkKind};
 use super::score::{COUNT, Feature, JoinScorer, Row};
 use super::shapes::Shapes;
 
@@ -26,6 +27,8 @@ pub(super) enum Role {
     Flat,
     /// One of the circles of a surface of revolution.
     Round,
+    /// One of the loops of another curved surface.
+    Curved,
 }
 
 /// Parts and loops so far.
@@ -47,8 +50,12 @@ impl State {
         let role = match link.kind {
             LinkKind::Coplanar => Role::Flat,
             LinkKind::Coaxial => Role::Round,
+            LinkKind::Pierced => Role::Curved,
         };
-        self.roles[link.outer] = role;
+        // A surface of revolution stays one when it gets a hole.
+        if (self.roles[link.outer], role) != (Role::Round, Role::Curved) {
+            self.roles[link.outer] = role;
+        }
         self.roles[link.inner] = role;
     }
 
@@ -63,8 +70,9 @@ impl State {
         }
         let ends = [self.roles[link.outer], self.roles[link.inner]];
         match link.kind {
-            LinkKind::Coplanar => !ends.contains(&Role::Round),
+            LinkKind::Coplanar => ends.iter().all(|e| matches!(e, Role::Free | Role::Flat)),
             LinkKind::Coaxial => ends == [Role::Free; 2],
+            LinkKind::Pierced => ends[0] != Role::Flat && ends[1] == Role::Free,
         }
     }
 }
@@ -75,6 +83,10 @@ pub(super) struct Joiner<'a> {
     pub(super) links: &'a [Link],
     pub(super) scorer: &'a dyn JoinScorer,
     pub(super) main: usize,
+    /// For each part those that look like it.
+    pub(super) alike: Vec<Vec<Twin>>,
+    /// Pairs of loops, outer and inner, that have a link.
+    pub(super) joined: BTreeSet<(usize, usize)>,
 }
 
 impl Joiner<'_> {
@@ -105,8 +117,29 @@ impl Joiner<'_> {
             let cluster = &moves[start..end];
             let shift = cluster.iter().map(|m| m.1).sum::<f64>() / cluster.len() as f64;
             let place = Place { shift, turned };
-            let list = self.select(cluster.iter().map(|m| m.2).collect(), state);
-            let row = self.row(part, place, &list, state);
+            let mut list: Vec<usize> = cluster.iter().map(|m| m.2).collect();
+            let pierces = |l: usize| self.links[l].kind == LinkKind::Pierced;
+            if list.iter().all(|&l| pierces(l)) {
+                // Where a hole ends in a curved surface is not known as exactly.
+                let mut more: Vec<&(bool, f64, usize)> = moves
+                    .iter()
+                    .filter(|m| m.0 == turned && pierces(m.2) && !list.contains(&m.2))
+                    .collect();
+                more.sort_by(|a, b| (a.1 - shift).abs().total_cmp(&(b.1 - shift).abs()));
+                let own = |l: &usize| self.part(self.links[*l].inner) == part;
+                for m in more {
+                    let ends = |l: &usize| self.links[*l].inner == self.links[m.2].inner;
+                    if own(&m.2) && !list.iter().any(ends) {
+                        list.push(m.2);
+                    }
+                }
+            }
+            let list = self.select(list, state);
+            let kept = cluster.iter().filter(|m| list.contains(&m.2));
+            let ends = kept.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), m| {
+                (low.min(m.1), high.max(m.1))
+            });
+            let row = self.row(part, place, &list, (ends.1 - ends.0).max(0.0), state);
             joins.push(Join {
                 place,
                 links: list,
@@ -148,7 +181,7 @@ impl Joiner<'_> {
         list
     }
 
-    fn row(&self, part: usize, place: Place, list: &[usize], state: &State) -> Row {
+    fn row(&self, part: usize, place: Place, list: &[usize], spread: f64, state: &State) -> Row {
         let mut row = [0.0; COUNT];
         let mut set = |f: Feature, x: f64| row[f as usize] = x;
         let links = || list.iter().map(|&l| &self.links[l]);
@@ -175,6 +208,7 @@ impl Joiner<'_> {
         let loops = &self.shapes.loops;
         let width = |l: &Link| (loops[l.inner].area / loops[l.outer].area).abs().sqrt();
         let of_kind = |l: &Link, kind| if l.kind == kind { width(l) } else { 0.0 };
+        set(Feature::Spread, spread / self.shapes.tolerance);
         set(Feature::Area, mean(&|l| of_kind(l, LinkKind::Coplanar)));
         set(Feature::Narrow, mean(&|l| of_kind(l, LinkKind::Coaxial)));
         set(Feature::Skips, mean(&|l| share(self.skips(l))));
@@ -187,6 +221,7 @@ impl Joiner<'_> {
         set(Feature::Clearance, mean(&|l| self.clearance(l)));
         set(Feature::Centred, mean(&|l| self.centred(l)));
         set(Feature::Aligned, mean(&|l| self.aligned(l, state)));
+        set(Feature::Alike, self.as_twins(part, list, state));
         set(Feature::Level, self.level(part, place, list, state));
         let depth_of = |l: &Link| {
             let a = &loops[l.outer];
@@ -244,145 +279,5 @@ impl Joiner<'_> {
                 && self.part(l.inner) != self.part(link.inner)
         };
         link.kind == LinkKind::Coaxial && self.links.iter().any(between)
-    }
-
-    fn clearance(&self, link: &Link) -> f64 {
-        let (a, b) = (
-            &self.shapes.loops[link.outer],
-            &self.shapes.loops[link.inner],
-        );
-        let n = a.polygon.len();
-        let step = b.polygon.len().div_ceil(12).max(1);
-        let mut least = f64::INFINITY;
-        for p in b.polygon.iter().step_by(step) {
-            for i in 0..n {
-                let (s, t) = (a.polygon[i], a.polygon[(i + 1) % n]);
-                let d = t - s;
-                let u =
-                    ((*p - s).dot(d) / d.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-                least = least.min(p.distance_squared(s + d * u));
-            }
-        }
-        (least.sqrt() / b.area.abs().sqrt().max(1e-6 * self.shapes.size)).min(2.0)
-    }
-
-    /// Extent of a loop along the two axes of its plane, if it is normal to the third: low, high.
-    fn extent(&self, outline: usize) -> Option<(DVec2, DVec2)> {
-        let [x, y, z] = self.shapes.axes.as_slice() else {
-            return None;
-        };
-        let outline = &self.shapes.loops[outline];
-        let plane = outline.plane?;
-        if !self.shapes.camera.is_parallel() {
-            return None;
-        }
-        let normal = plane.normal();
-        let pairs = [(x, [y, z]), (y, [x, z]), (z, [x, y])];
-        let (_, [u, v]) = pairs
-            .into_iter()
-            .find(|(n, _)| n.dot(normal).abs() > 0.999)?;
-        let (u, v) = (u.truncate(), v.truncate());
-        let det = u.perp_dot(v);
-        let ends = outline
-            .polygon
-            .iter()
-            .map(|p| DVec2::new(p.perp_dot(v), u.perp_dot(*p)) / det)
-            .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(l, h), p| {
-                (l.min(p), h.max(p))
-            });
-        Some(ends)
-    }
-
-    fn same(&self, a: f64, b: f64) -> bool {
-        (a - b).abs() < 1e-3 * self.shapes.size
-    }
-
-    /// Distance between the centres of two circles in their plane.
-    fn eccentricity(&self, a: usize, b: usize) -> Option<f64> {
-        let (p, q) = (self.shapes.loops[a].line?, self.shapes.loops[b].line?);
-        let n = self.shapes.axes[p.axis];
-        let d = q.at - p.at;
-        let camera = &self.shapes.camera;
-        let along = camera.drawn(n, p.at).normalize_or(DVec2::X);
-        let facing = camera.facing(n, p.at).abs().max(1e-3);
-        (p.axis == q.axis).then(|| d.perp_dot(along).hypot(d.dot(along) / facing))
-    }
-
-    fn centred(&self, link: &Link) -> f64 {
-        if let Some(d) = self.eccentricity(link.outer, link.inner)
-            && self.same(d, 0.0)
-        {
-            return 2.0;
-        }
-        let (Some((a, b)), Some((c, d))) = (self.extent(link.outer), self.extent(link.inner))
-        else {
-            return 0.0;
-        };
-        let (p, q) = (a + b, c + d);
-        let hits = [self.same(p.x, q.x), self.same(p.y, q.y)];
-        hits.iter().filter(|h| **h).count() as f64
-    }
-
-    fn aligned(&self, link: &Link, state: &State) -> f64 {
-        // On one circle around the outer one's centre.
-        if let Some(d) = self.eccentricity(link.outer, link.inner)
-            && state.inner[link.outer].iter().any(|&i| {
-                i != link.inner
-                    && self
-                        .eccentricity(link.outer, i)
-                        .is_some_and(|e| self.same(d, e))
-            })
-        {
-            return 2.0;
-        }
-        let Some((a, b)) = self.extent(link.inner) else {
-            return 0.0;
-        };
-        let mut hits = [false; 2];
-        for &other in state.inner[link.outer].iter().filter(|o| **o != link.inner) {
-            let Some((c, d)) = self.extent(other) else {
-                continue;
-            };
-            for (k, hit) in hits.iter_mut().enumerate() {
-                *hit |= self.same(a[k], c[k])
-                    || self.same(b[k], d[k])
-                    || self.same(a[k] + b[k], c[k] + d[k]);
-            }
-        }
-        hits.iter().filter(|h| **h).count() as f64
-    }
-
-    /// Share of a part's planes parallel to the one it is linked in, but for those linked, that are
-    /// in one plane with one placed.
-    fn level(&self, part: usize, place: Place, list: &[usize], state: &State) -> f64 {
-        let loops = &self.shapes.loops;
-        let (mut count, mut hits) = (0usize, 0usize);
-        for &i in &self.shapes.parts[part].loops {
-            let linked = list.iter().any(|&l| {
-                let link = &self.links[l];
-                link.outer == i || link.inner == i
-            });
-            let Some(p) = loops[i].plane else { continue };
-            if linked {
-                continue;
-            }
-            count += 1;
-            let at = (loops[i].low + loops[i].high) / 2.0;
-            hits += usize::from(loops.iter().any(|b| {
-                b.part != part
-                    && state.placed[b.part].is_some_and(|base| {
-                        b.plane.is_some_and(|q| {
-                            p.normal().cross(q.normal()).length() < PARALLEL
-                                && (p.level(at) + place.shift - q.level(at) - base.shift).abs()
-                                    < self.shapes.tolerance
-                        })
-                    })
-            }));
-        }
-        if count == 0 {
-            0.0
-        } else {
-            hits as f64 / count as f64
-        }
     }
 }

@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use super::shapes::{Outline, Shapes};
+use crate::drawing::SurfaceKind;
 use crate::lift::Tilt;
 
 /// Sine of the angle between normals up to which planes are parallel.
@@ -24,6 +25,8 @@ pub(super) enum LinkKind {
     Coplanar,
     /// One surface of revolution without a silhouette between two circles.
     Coaxial,
+    /// One curved surface that the inner loop is a hole in.
+    Pierced,
 }
 
 /// Two loops that may be one face.
@@ -42,6 +45,19 @@ pub(super) struct Link {
 
 /// All pairs of loops that may be one face, also of one part.
 pub(super) fn links(shapes: &Shapes) -> Vec<Link> {
+    let mut links = flat_or_coaxial(shapes);
+    let mut linked = vec![false; shapes.parts.len()];
+    for link in &links {
+        let [a, b] = [link.outer, link.inner].map(|i| shapes.loops[i].part);
+        if a != b {
+            (linked[a], linked[b]) = (true, true);
+        }
+    }
+    pierced(shapes, &linked, &mut links);
+    links
+}
+
+fn flat_or_coaxial(shapes: &Shapes) -> Vec<Link> {
     let mut links = Vec::new();
     let slack = DVec2::splat(1e-6 * shapes.size);
     for (i, a) in shapes.loops.iter().enumerate() {
@@ -77,6 +93,63 @@ pub(super) fn links(shapes: &Shapes) -> Vec<Link> {
         }
     }
     links
+}
+
+/// Adds holes in curved surfaces. What is drawn over a curved face need not be in it, so of a part
+/// that other links may join only loops are taken that are no whole faces: a whole cylinder or cone
+/// has rulings. Other parts have to be joined somehow.
+fn pierced(shapes: &Shapes, linked: &[bool], links: &mut Vec<Link>) {
+    for (p, part) in shapes.parts.iter().enumerate() {
+        let mut all: Vec<(usize, Link)> = Vec::new();
+        for &j in &part.loops {
+            let b = &shapes.loops[j];
+            let trimmed = matches!(b.kind, SurfaceKind::Cylinder | SurfaceKind::Cone)
+                && b.ruling.is_none()
+                && b.line.is_none();
+            if linked[p] && !trimmed {
+                continue;
+            }
+            for (i, a) in shapes.loops.iter().enumerate() {
+                let around = a.low.cmple(b.low).all() && a.high.cmpge(b.high).all();
+                let rank = match (a.kind == b.kind && a.curved, b.ruling.is_some()) {
+                    (true, false) => 0,
+                    (false, false) if a.ring && b.curved || a.curved && b.ring => 1,
+                    (true, true) => 2,
+                    _ => continue,
+                };
+                if a.part == p
+                    || !around
+                    || linked[p] && rank > 0
+                    || b.area.abs() >= a.area.abs()
+                    || inside(a, b) < INSIDE
+                {
+                    continue;
+                }
+                let Some(offset) = depth_on(a, b) else {
+                    continue;
+                };
+                let link = Link {
+                    kind: LinkKind::Pierced,
+                    outer: i,
+                    inner: j,
+                    offset,
+                    same_sense: a.area * b.area > 0.0,
+                    doubtful: false,
+                };
+                all.push((rank, link));
+            }
+        }
+        // The likeliest sort that there is.
+        let first = all.iter().map(|a| a.0).min();
+        links.extend(all.into_iter().filter(|a| Some(a.0) == first).map(|a| a.1));
+    }
+}
+
+/// Depth by which loop `b` has to move so that its corners are on loop `a`'s surface.
+fn depth_on(a: &Outline, b: &Outline) -> Option<f64> {
+    let all = b.corners.iter().map(|&(p, depth)| a.depth(p) - depth);
+    let count = b.corners.len();
+    (count > 0).then(|| all.sum::<f64>() / count as f64)
 }
 
 fn parallel(a: &Outline, b: &Outline) -> Option<(Tilt, Tilt)> {

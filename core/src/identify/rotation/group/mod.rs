@@ -4,6 +4,7 @@
 //! axis, and each part of the drawing that shares no vertex with the others a depth of its own.
 //!
 //! 1. [`shapes`]: the loops as drawn and lifted, with the [`axis`] of circles,
+//!    and of circles that are [`oblique`],
 //! 2. [`links`]: pairs of loops that may be one face, and how far in depth each moves a part,
 //! 3. [`joins`]: links of a part that imply the same move support each other and make one join,
 //! 4. [`body`]: whether a part so placed is a pocket, a hole or a boss that a solid can have,
@@ -11,16 +12,21 @@
 //! 6. [`search`]: the likeliest joins of all parts, and ranked alternatives,
 //! 7. [`chains`]: circles and silhouettes around one axis, matched all at once.
 
+mod alike;
+mod assemble;
 mod axis;
 mod body;
 mod chains;
 mod joins;
+mod layout;
 mod links;
+mod oblique;
 mod score;
 mod search;
 mod shapes;
 #[cfg(test)]
 mod tests;
+mod trials;
 
 use crate::drawing::{Drawing, Graph};
 use crate::identify::Face;
@@ -54,7 +60,8 @@ pub(super) fn group(drawing: &Drawing, graph: &Graph, loops: &[Face]) -> Vec<Gro
             score: 0.0,
         }];
     };
-    let shapes = Shapes::new(drawing, graph, &pieces, loops);
+    let mut shapes = Shapes::new(drawing, graph, &pieces, loops);
+    oblique::add(&mut shapes, drawing, &pieces, loops);
     let links = links::links(&shapes);
     search::Search::new(&shapes, &links, &HandJoinScorer).run()
 }

@@ -31,6 +31,7 @@ features! {
     Pierced -0.88: "Share of other parts' points inside the part.",
     Boss -1.76: "The part is on the outer side of the face.",
     Through 2.17: "The part opens in two planes.",
+    Spread -1.50: "Difference of the moves that its links imply, over the tolerance.",
     Area 0.41: "Drawn width of the inner loop over that of the outer one in their plane.",
     Narrow 1.50: "The same for two circles of a surface of revolution.",
     Skips -2.00: "A third circle is drawn between two of a surface of revolution.",
@@ -41,6 +42,7 @@ features! {
     Level 0.11: "Share of the part's other planes that are level with one that is placed.",
     Clearance 0.99: "Drawn distance between inner and outer loop, over the inner one's width.",
     Main -0.37: "The other part is the main one.",
+    Alike 2.0: "Share of the parts drawn alike that are joined alike, less those that are not.",
     Host -2.86: "The part placed hangs on this one.",
 }
 

@@ -4,16 +4,17 @@
 //! one part; alternatives change one choice or several, the likeliest combinations first, and place
 //! the parts after it anew.
 
-use std::cmp::Ordering;
 use std::collections::{BTreeSet, BinaryHeap};
 
 use super::Grouping;
+use super::alike::alike;
 use super::body::Place;
 use super::chains::{Chain, chains};
 use super::joins::{Join, Joiner, Role, State};
 use super::links::{Link, LinkKind};
 use super::score::JoinScorer;
 use super::shapes::Shapes;
+use super::trials::{Run, Step, push_trials};
 
 /// Joins of a part that are kept.
 const JOINS: usize = 6;
@@ -24,6 +25,15 @@ const GROUPINGS: usize = 5;
 /// Score of a join that is not there yet, but may be when more is placed.
 const UNSEEN: f64 = -3.0;
 
+/// Cost of each piece of the solid that no face joins to the rest, in log-odds.
+const LOOSE: f64 = 5.0;
+
+/// Cost by which a matching of a chain must be better than what is there, in log-odds.
+const BETTER: f64 = 0.5;
+
+/// Matchings of a chain that are given beside the cheapest one.
+const OTHERS: usize = 3;
+
 /// Log-odds by which a part waits whose links lead to larger parts that are not placed yet.
 const WAIT: f64 = 2.0;
 
@@ -32,68 +42,6 @@ pub(super) struct Search<'a> {
     chains: Vec<Chain>,
     /// Links to other parts, of each part.
     own: Vec<Vec<usize>>,
-}
-
-/// A choice among the joins of a part.
-#[derive(Debug, Clone)]
-struct Step {
-    part: usize,
-    joins: Vec<Join>,
-    chosen: usize,
-}
-
-/// All choices, and the state before each and at the end.
-struct Run {
-    steps: Vec<Step>,
-    states: Vec<State>,
-    log_likelihood: f64,
-    /// First step that is not its parent's.
-    from: usize,
-}
-
-/// A run to be tried.
-struct Trial {
-    estimate: f64,
-    run: usize,
-    step: usize,
-    choice: usize,
-}
-
-impl PartialEq for Trial {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for Trial {}
-
-impl PartialOrd for Trial {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for Trial {
-    fn cmp(&self, other: &Self) -> Ordering {
-        let by = |t: &Self| (t.run, t.step, t.choice);
-        self.estimate
-            .total_cmp(&other.estimate)
-            .then_with(|| by(other).cmp(&by(self)))
-    }
-}
-
-impl Step {
-    /// Probability of each join.
-    fn shares(&self) -> Vec<f64> {
-        let top = self.joins.first().map_or(0.0, |j| j.score);
-        let all: Vec<f64> = self.joins.iter().map(|j| (j.score - top).exp()).collect();
-        let sum: f64 = all.iter().sum();
-        all.into_iter().map(|x| x / sum).collect()
-    }
-
-    fn log_share(&self, choice: usize) -> f64 {
-        self.shares()[choice].ln()
-    }
 }
 
 impl<'a> Search<'a> {
@@ -113,6 +61,8 @@ impl<'a> Search<'a> {
                 links,
                 scorer,
                 main: shapes.main_part().unwrap_or(0),
+                alike: alike(shapes),
+                joined: links.iter().map(|l| (l.outer, l.inner)).collect(),
             },
             own,
         }
@@ -151,26 +101,59 @@ impl<'a> Search<'a> {
         let mut best = run.states[run.states.len() - 1].clone();
         let mut others: Vec<(State, f64)> = Vec::new();
         for chain in &self.chains {
-            let mut ranked = chain.matchings(self.joiner.shapes, self.joiner.links, &best);
-            if ranked.is_empty() {
-                continue;
-            }
-            let first = ranked.remove(0);
+            let ranked = self.matched(chain, &best);
             // What differs in an earlier chain keeps the likeliest matching of this one.
             for (state, _) in &mut others {
-                let own = chain.matchings(self.joiner.shapes, self.joiner.links, state);
-                if let Some((matched, _)) = own.into_iter().next() {
-                    *state = matched;
-                }
+                *state = self.matched(chain, state).swap_remove(0).0;
             }
-            let behind = |(state, cost): (State, f64)| (state, cost - first.1);
-            others.extend(ranked.into_iter().map(behind));
-            best = first.0;
+            let mut ranked = ranked.into_iter();
+            let first = ranked.next().map(|(state, _)| state);
+            others.extend(ranked);
+            best = first.unwrap_or(best);
         }
         self.keep_one(run, &best, 0.0, seen, found);
         for (state, behind) in &others {
             self.keep_one(run, state, *behind, seen, found);
         }
+    }
+
+    /// A state with a chain as it is or matched anew, the likeliest first, never none; each with its
+    /// cost beyond that of the first, but for what [`Self::loose`] says of it.
+    fn matched(&self, chain: &Chain, state: &State) -> Vec<(State, f64)> {
+        let all = chain.matchings(self.joiner.shapes, self.joiner.links, state);
+        let loose = |state: &State| LOOSE * self.loose(state) as f64;
+        // What is there stays unless there is much better.
+        let mut ranked = vec![(all.now + loose(state) - BETTER, all.now, state.clone())];
+        let anew = all.ranked.into_iter();
+        ranked.extend(anew.map(|(state, cost)| (cost + loose(&state), cost, state)));
+        ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
+        ranked.truncate(1 + OTHERS);
+        let first = ranked[0].1;
+        let behind = |(_, cost, state)| (state, cost - first);
+        ranked.into_iter().map(behind).collect()
+    }
+
+    /// Pieces of the solid, but one, that no face joins to another.
+    fn loose(&self, state: &State) -> usize {
+        let shapes = self.joiner.shapes;
+        let mut piece: Vec<usize> = (0..shapes.parts.len()).collect();
+        let mut pieces = piece.len();
+        fn root(piece: &[usize], mut part: usize) -> usize {
+            while piece[part] != part {
+                part = piece[part];
+            }
+            part
+        }
+        for (outer, inner) in state.inner.iter().enumerate() {
+            for &i in inner {
+                let [a, b] = [outer, i].map(|l| root(&piece, shapes.loops[l].part));
+                if a != b {
+                    piece[b] = a;
+                    pieces -= 1;
+                }
+            }
+        }
+        pieces.saturating_sub(1)
     }
 
     fn keep_one(
@@ -181,8 +164,8 @@ impl<'a> Search<'a> {
         seen: &mut BTreeSet<Vec<Vec<usize>>>,
         found: &mut Vec<Grouping>,
     ) {
-        let mut grouping = self.grouping(run, state);
-        grouping.score -= behind;
+        let mut grouping = self.joiner.grouping(run, state);
+        grouping.score -= behind + LOOSE * self.loose(state) as f64;
         let mut key: Vec<Vec<usize>> = grouping
             .faces
             .iter()
@@ -325,84 +308,6 @@ impl<'a> Search<'a> {
         state.placed[step.part] = Some(join.place);
         for &l in &join.links {
             state.apply(&self.joiner.links[l]);
-        }
-    }
-
-    fn grouping(&self, run: &Run, state: &State) -> Grouping {
-        let shapes = self.joiner.shapes;
-        let count = shapes.loops.len();
-        let mut owner: Vec<usize> = (0..count).collect();
-        for (outer, inner) in state.inner.iter().enumerate() {
-            for &i in inner {
-                let (from, to) = (owner[i], owner[outer]);
-                owner
-                    .iter_mut()
-                    .filter(|o| **o == from)
-                    .for_each(|o| *o = to);
-            }
-        }
-        let mut sure = vec![1.0; count];
-        for step in &run.steps {
-            let shares = step.shares();
-            let at = |j: &Join, i: usize| -> Vec<usize> {
-                let touches = |l: &&usize| {
-                    let link = &self.joiner.links[**l];
-                    link.outer == i || link.inner == i
-                };
-                j.links.iter().filter(touches).copied().collect()
-            };
-            let ends = step.joins.iter().flat_map(|j| &j.links).flat_map(|&l| {
-                let link = &self.joiner.links[l];
-                [link.outer, link.inner]
-            });
-            let ends: BTreeSet<usize> = ends.collect();
-            for i in ends {
-                let own = at(&step.joins[step.chosen], i);
-                let same = step.joins.iter().zip(&shares);
-                let share: f64 = same.filter(|(j, _)| at(j, i) == own).map(|(_, s)| s).sum();
-                sure[i] *= share;
-            }
-        }
-        let mut faces: Vec<Vec<usize>> = vec![Vec::new(); count];
-        for (i, &o) in owner.iter().enumerate() {
-            faces[o].push(i);
-        }
-        faces.retain(|f| !f.is_empty());
-        for face in &mut faces {
-            let size = |i: &usize| shapes.loops[*i].area.abs();
-            face.sort_by(|a, b| size(b).total_cmp(&size(a)).then(a.cmp(b)));
-        }
-        let turned: Vec<bool> = (0..shapes.parts.len())
-            .map(|p| state.placed[p].map_or_else(|| shapes.volume(p) < 0.0, |place| place.turned))
-            .collect();
-        Grouping {
-            sureness: faces
-                .iter()
-                .map(|f| f.iter().map(|&i| sure[i]).fold(1.0, f64::min))
-                .collect(),
-            round: faces
-                .iter()
-                .map(|f| f.len() > 1 && state.roles[f[0]] == Role::Round)
-                .collect(),
-            faces,
-            reversed: shapes.loops.iter().map(|l| turned[l.part]).collect(),
-            score: run.log_likelihood,
-        }
-    }
-}
-
-/// Every other choice of a run's own steps.
-fn push_trials(heap: &mut BinaryHeap<Trial>, runs: &[Run], run: usize) {
-    let whole = &runs[run];
-    for (k, step) in whole.steps.iter().enumerate().skip(whole.from) {
-        for choice in 1..step.joins.len() {
-            heap.push(Trial {
-                estimate: whole.log_likelihood - step.log_share(step.chosen)
-                    + step.log_share(choice),
-                run,
-                step: k,
-                choice,
-            });
         }
     }
 }

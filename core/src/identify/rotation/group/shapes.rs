@@ -34,6 +34,10 @@ pub(super) struct Outline {
     pub(super) fold: bool,
     /// Whether it is a whole circle.
     pub(super) ring: bool,
+    /// Direction in which its longest straight edge is drawn, if it bounds a curved face.
+    pub(super) ruling: Option<DVec2>,
+    /// Its corners as drawn, with depth in its part.
+    pub(super) corners: Vec<(DVec2, f64)>,
     /// Axis of a circle, or of a curved face that is one of revolution.
     pub(super) line: Option<AxisLine>,
 }
@@ -54,8 +58,10 @@ pub(super) struct Part {
 pub(super) struct Shapes {
     pub(super) loops: Vec<Outline>,
     pub(super) parts: Vec<Part>,
-    /// Axes towards the viewer, three of a frame, or one.
+    /// Axes towards the viewer: three of a frame, or one, and those of oblique circles.
     pub(super) axes: Vec<DVec3>,
+    /// Number of axes that are the drawing's own.
+    own: usize,
     /// What was drawn how; depths here are [levels](Camera::level).
     pub(super) camera: Camera,
     /// Size of the drawing.
@@ -108,10 +114,16 @@ impl Shapes {
             loops,
             parts,
             axes: pieces.axes.clone(),
+            own: pieces.axes.len(),
             camera: pieces.camera,
             size: drawing.size(),
             tolerance: SAME * drawing.size(),
         }
+    }
+
+    /// The three axes of the drawing's frame, if it has one.
+    pub(super) fn frame(&self) -> Option<&[DVec3; 3]> {
+        self.axes[..self.own].try_into().ok()
     }
 
     /// The part that is drawn largest.
@@ -150,18 +162,22 @@ impl Outline {
         if let Some(plane) = self.plane {
             return plane.level(p);
         }
-        // Distance and depth of the nearest boundary point on either side.
+        // Distance and depth of the nearest boundary point on either side, along a ruling if the
+        // surface has them: between these the depth is linear.
+        let ruling = self.ruling.unwrap_or(DVec2::X);
+        let across = |q: DVec2| ruling.perp_dot(q - p);
         let mut sides: [Option<(f64, f64)>; 2] = [None; 2];
         let n = self.polygon.len();
         for i in 0..n {
             let k = (i + 1) % n;
             let (a, b) = (self.polygon[i], self.polygon[k]);
-            if (a.y > p.y) == (b.y > p.y) {
+            let (s, e) = (across(a), across(b));
+            if (s > 0.0) == (e > 0.0) {
                 continue;
             }
-            let t = (p.y - a.y) / (b.y - a.y);
+            let t = s / (s - e);
             let (x, z) = (
-                a.x + t * (b.x - a.x) - p.x,
+                (a.lerp(b, t) - p).dot(ruling),
                 self.depths[i] + t * (self.depths[k] - self.depths[i]),
             );
             let side = &mut sides[usize::from(x >= 0.0)];
@@ -258,10 +274,18 @@ fn outline(
     let mut depths = Vec::new();
     let mut part = 0;
     let mut vertices = Vec::new();
+    let mut corners = Vec::new();
+    let mut longest = DVec2::ZERO;
     for c in face.loops.iter().flatten() {
-        part = graph.component(graph.origin(*c));
-        vertices.push(graph.origin(*c));
+        let v = graph.origin(*c);
+        part = graph.component(v);
+        vertices.push(v);
+        corners.push((drawing.vertices[v], pieces.camera.level(pieces.height(v))));
         let points = &drawing.edges[c.edge()].points;
+        let chord = points[points.len() - 1] - points[0];
+        if drawing.edges[c.edge()].is_straight() && chord.length() > longest.length() {
+            longest = chord;
+        }
         let n = points.len() - 1;
         for k in 0..n {
             let k = if c.is_reversed() { n - k } else { k };
@@ -298,6 +322,8 @@ fn outline(
         kind: face.kind,
         fold,
         ring,
+        ruling: (curved && longest != DVec2::ZERO).then(|| longest.normalize()),
+        corners,
         line: None,
     };
     if outline.ring || outline.curved {
