@@ -255,6 +255,38 @@ uint32_t faceformer_abi_version(void);
 FaceformerStatus faceformer_info(char **json, char **message);
 
 /**
+ * Finds the depth of every vertex and the surface of every face, and which faces conflict, as a
+ * JSON object: `{"depths": [...], "surfaces": [...], "conflicts": [{"face": 6, "vertices": [12],
+ * "others": [2, 8], "residual": 0.1, "message": "face 7 conflicts with faces 3 and 9 at vertex
+ * 12"}], ...}`.
+ *
+ * A conflict has a face that the depths contradict, the vertices where they do, and the other faces
+ * there, all counted from 0; `residual` is how far off its surface it is, in drawing units.
+ * `message` says it for the user, faces counted from 1. Without conflicts the list is empty.
+ *
+ * `options_json` has `len` bytes: `{"flip": false}`, every key optional, null for the defaults.
+ * `callback` is null or hears progress and may cancel; it gets `user`.
+ *
+ * Returns `FACEFORMER_STATUS_FAILED` if depth cannot be had (the message says of which vertices),
+ * `FACEFORMER_STATUS_BAD_INPUT` if `faces` belong to another drawing, `FACEFORMER_STATUS_CANCELLED`
+ * if the callback returned 0. Any thread may call this, several at once with the same handles.
+ * Free `*json` with `faceformer_string_free`.
+ *
+ * # Safety
+ * `drawing` and `faces` are live handles or null, `options_json` is null or valid for reads of
+ * `len` bytes, `callback` is null or may be called with `user`, `json` is valid for writes,
+ * `message` is null or valid for writes.
+ */
+FaceformerStatus faceformer_lift(const struct FaceformerDrawing *drawing,
+                                 const struct FaceformerFaces *faces,
+                                 const char *options_json,
+                                 size_t len,
+                                 FaceformerProgress callback,
+                                 void *user,
+                                 char **json,
+                                 char **message);
+
+/**
  * Frees a string or message that this library returned. Null does nothing.
  *
  * Any thread may call this.
@@ -277,11 +309,13 @@ void faceformer_bytes_free(uint8_t *bytes, size_t len);
 /**
  * Makes a solid from a drawing and its faces: depth, plan, and OpenCASCADE's B-rep of it.
  *
- * `options_json` has `len` bytes: `{"flip": false, "scale": 1.0, "orientation": "upright"}`, every
- * key optional, null for the defaults. `flip` takes the other of the two depths that a drawing
- * without perspective has; `scale` is model units per drawing unit, above 0; `orientation` is
- * "upright" (the model's axes along x, y, z) or "drawn" (as seen, z towards the viewer).
- * `callback` is null or hears progress and may cancel; it gets `user`.
+ * `options_json` has `len` bytes: `{"flip": false, "scale": 1.0, "orientation": "upright",
+ * "alternatives": 0}`, every key optional, null for the defaults. `flip` takes the other of the two
+ * depths that a drawing without perspective has; `scale` is model units per drawing unit, above 0;
+ * `orientation` is "upright" (the model's axes along x, y, z) or "drawn" (as seen, z towards the
+ * viewer). If the faces conflict or give no solid, as many of their `alternatives` as that are tried
+ * in their order, and the first one without fault is taken; the report says so. Leave it at 0 where
+ * the user chose the faces. `callback` is null or hears progress and may cancel; it gets `user`.
  *
  * Returns `FACEFORMER_STATUS_FAILED` if depth or a valid closed solid cannot be had; the message
  * names the face or edge. If OpenCASCADE had begun a shell by then, `*out` is NOT null but a
@@ -308,8 +342,12 @@ FaceformerStatus faceformer_solid(const struct FaceformerDrawing *drawing,
 
 /**
  * Tells how the solid came about and what it is, as a JSON object: `{"partial": false, "report":
- * {"volume": ..., "area": ..., "face_counts": {"plane": 6, ...}, ...}, "error": null, "lift": ...,
- * "plan": ...}`.
+ * {"volume": ..., "area": ..., "face_counts": {"plane": 6, ...}, ...}, "error": null, "reading": 0,
+ * "notices": [], "lift": ..., "plan": ...}`.
+ *
+ * `reading` says which faces the solid has: 0 those of `faces`, 1 the first of their alternatives;
+ * if it is not 0, the one text in `notices` tells the user why. `lift` lists `conflicts` as
+ * `faceformer_lift` does.
  *
  * `lift` has the depth of every vertex of the drawing, `plan` the points, curves and surfaces the
  * solid was built from. For a partial shell `partial` is true, `report` null and `error` the

@@ -56,6 +56,8 @@ void whole_way(const std::string &json, const std::string &step) {
     const auto drawing = ff::Drawing::read(json);
     const auto faces = ff::Faces::identify(drawing, R"({"engine": "rotation"})", listen);
     const auto same = ff::Faces::read(drawing, faces.json());
+    expect(faces.lift(drawing).find("\"conflicts\":[]") != std::string::npos,
+           "right faces do not conflict");
     const auto solid = ff::Solid::build(drawing, same, R"({"flip": true})", listen);
     expect(stages.count("lift") && stages.count("build"), "stages are heard");
     expect(solid.brep().find("CASCADE Topology V1") < 10, "the B-rep is BREP text");
