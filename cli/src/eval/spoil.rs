@@ -1,6 +1,6 @@
 //! Faces and coordinates spoilt on purpose, to see what lifting survives.
 
-use faceformer::drawing::{Curve2, Drawing, Limits, SurfaceKind, mend};
+use faceformer::drawing::{CleanOptions, Curve2, Drawing, Limits, SurfaceKind, clean};
 use faceformer::identify::Face;
 use glam::DVec2;
 
@@ -116,7 +116,8 @@ pub(crate) fn part(drawing: &Drawing, share: f64, random: &mut Random) -> Result
                 .collect()
         })
         .collect();
-    let cleaned = mend(&polylines, &Limits::default()).map_err(|e| e.to_string())?;
+    let cleaned = clean(&polylines, &CleanOptions::default(), &Limits::default())
+        .map_err(|e| e.to_string())?;
     let mut edges = vec![None; drawing.edges.len()];
     for (edge, sources) in cleaned.drawing.edges.into_iter().zip(&cleaned.sources) {
         match sources.as_slice() {

@@ -18,7 +18,7 @@ mod model;
 mod recognise;
 mod report;
 
-pub use clean::{CleanOptions, clean, mend};
+pub use clean::{CleanOptions, clean};
 pub use coedge::CoEdge;
 pub use curve::{Curve2, EllipseArc};
 pub use diagnose::diagnose;

@@ -79,52 +79,6 @@ pub fn clean(
     clean_raw(raw, options, limits)
 }
 
-/// Widest tolerance that [`mend`] tries, relative to the drawing's size.
-const WIDEST: f64 = 1e-2;
-
-/// Turns a list of polylines into a drawing as [`clean`] does with the default options; if ends stay
-/// open, with the least wider tolerance, up to a hundredth of the drawing's size, at which all meet
-/// and no edge is lost. The report tells which tolerance it was.
-///
-/// # Errors
-/// As [`clean`].
-pub fn mend(polylines: &[Vec<DVec2>], limits: &Limits) -> Result<CleanDrawing, DrawingError> {
-    let edges = polylines.iter().map(|points| RawEdge {
-        points: points.clone(),
-        ..RawEdge::default()
-    });
-    let raw = Raw {
-        edges: edges.collect(),
-        ..Raw::default()
-    };
-    mend_raw(raw, limits)
-}
-
-pub(super) fn mend_raw(raw: Raw, limits: &Limits) -> Result<CleanDrawing, DrawingError> {
-    let mut options = CleanOptions::default();
-    let found = clean_raw(raw.clone(), &options, limits)?;
-    let is_open = |c: &CleanDrawing| {
-        let mut findings = c.report.findings.iter();
-        findings.any(|f| f.kind == FindingKind::Dangling)
-    };
-    let kept = |c: &CleanDrawing| {
-        let mut kept = c.sources.concat();
-        kept.sort_unstable();
-        kept
-    };
-    if !is_open(&found) {
-        return Ok(found);
-    }
-    while options.tolerance < WIDEST {
-        options.tolerance = (2.0 * options.tolerance).min(WIDEST);
-        match clean_raw(raw.clone(), &options, limits) {
-            Ok(wider) if !is_open(&wider) && kept(&wider) == kept(&found) => return Ok(wider),
-            _ => {}
-        }
-    }
-    Ok(found)
-}
-
 pub(super) fn clean_raw(
     raw: Raw,
     options: &CleanOptions,

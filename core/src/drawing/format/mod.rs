@@ -8,7 +8,7 @@ mod parse;
 mod release;
 mod write;
 
-use super::{CleanDrawing, Drawing, DrawingError, Limits, Report, clean, diagnose};
+use super::{CleanDrawing, CleanOptions, Drawing, DrawingError, Limits, Report, clean, diagnose};
 pub(super) use parse::{Raw, RawEdge};
 
 /// Reads a drawing in any of the three forms.
@@ -43,7 +43,7 @@ pub fn read(text: &str, limits: &Limits) -> Result<CleanDrawing, DrawingError> {
     if raw.is_release() {
         return release::read(raw, limits);
     }
-    clean::mend_raw(raw, limits)
+    clean::clean_raw(raw, &CleanOptions::default(), limits)
 }
 
 impl Drawing {

@@ -14,7 +14,7 @@ use super::super::{DrawingError, Limits, Projection, Truth};
 use super::release::Release;
 
 /// An edge as a file lists it.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Default)]
 pub(in super::super) struct RawEdge {
     pub(in super::super) name: Option<String>,
     pub(in super::super) v: Option<[usize; 2]>,
@@ -22,7 +22,7 @@ pub(in super::super) struct RawEdge {
 }
 
 /// Everything that any of the input forms may hold.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Default)]
 pub(in super::super) struct Raw {
     pub(in super::super) id: String,
     pub(in super::super) source: String,

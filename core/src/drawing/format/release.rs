@@ -16,7 +16,7 @@ use super::parse::{Raw, RawEdge};
 const SAME_VERTEX: f64 = 2e-4;
 
 /// What only the release's files hold.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Default)]
 pub(in super::super) struct Release {
     /// Co-edge to mate, each pair once.
     pub(super) pairings: Option<BTreeMap<String, usize>>,
@@ -26,7 +26,7 @@ pub(in super::super) struct Release {
 }
 
 /// A face: loops of co-edges, with OCCT's `GeomAbs_SurfaceType` or without.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Deserialize)]
 #[serde(untagged)]
 pub(in super::super) enum ReleaseFace {
     Typed(usize, Vec<Vec<usize>>),
