@@ -9,7 +9,7 @@ import argparse
 import json
 import subprocess
 
-ENGINES = ("rotation", "varley", "shortest")
+ENGINES = ("rotation", "faceformer", "varley", "shortest")
 SHAPES = {
     "all": "all",
     "polyhedra": "polyhedra",

@@ -28,9 +28,8 @@ fn small() -> &'static [Drawing] {
     })
 }
 
-/// Lead over the next reading, log-odds, below which either may be given: points are sampled along
-/// edges from their first ends, and readings alike differ by rounding only.
-const LEAD: f64 = 0.1;
+/// Lead over the next reading, log-odds, below which rounding decides which one is given.
+const LEAD: f64 = 1e-6;
 
 /// The faces found, each as its set of edges, and their lead over the next reading.
 fn faces(drawing: &Drawing) -> (BTreeSet<Vec<usize>>, f64) {

@@ -207,21 +207,6 @@ fn a_wall_taken_for_one_with_a_hole_is_the_only_face_blamed() {
 }
 
 #[test]
-fn a_cylinder_taken_for_a_plane_is_named() {
-    let (drawing, mut faces) = shaft(view(), &[(1.0, 0.5), (0.6, 2.0), (0.8, 0.3)]);
-    let wrong = faces
-        .iter()
-        .position(|f| f.kind == SurfaceKind::Cylinder)
-        .unwrap();
-    faces[wrong].kind = SurfaceKind::Plane;
-    let found = lifted(&drawing, &faces);
-    assert!(error(&drawing, &found) < 1e-8);
-    let named: Vec<usize> = found.conflicts.iter().map(|c| c.face).collect();
-    assert_eq!(named, [wrong]);
-    assert!(!found.conflicts[0].vertices.is_empty());
-}
-
-#[test]
 fn a_loop_in_the_wrong_face_is_hung_where_it_belongs() {
     // A block with a blind pocket, which hangs on the block by one loop alone.
     let mut scene = Scene::new(view());

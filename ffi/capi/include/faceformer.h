@@ -167,7 +167,9 @@ void faceformer_drawing_free(struct FaceformerDrawing *drawing);
  * With `"model": "FILE"` the engine rotation uses the trained model in that file, with
  * `"model": "none"` its hand-made scores, and else the file that the environment variable
  * `FACEFORMER_MODEL` names, or the library's own model. If a model cannot be used, the hand-made
- * scores are, and the faces' `notices` say so.
+ * scores are, and the faces' `notices` say so. The paper's engines take a file in the same ways;
+ * faceformer has a small model of its own, and without a model that can be used they refuse every
+ * drawing.
  *
  * Returns `FACEFORMER_STATUS_FAILED` if the engine cannot handle the drawing (an edge ends freely,
  * no consistent faces exist; the message names the edge), `FACEFORMER_STATUS_CANCELLED` if the

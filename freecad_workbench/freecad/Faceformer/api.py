@@ -28,8 +28,8 @@ def identify_faces(
 ) -> Identification:
     """Finds the faces of the solid that a drawing shows. Changes no document.
 
-    ``engine`` is ``rotation``, ``varley`` or ``shortest``. ``progress(stage, share)`` hears how
-    far the work is and returns False to cancel.
+    ``engine`` is ``rotation``, ``varley``, ``shortest`` or ``faceformer``.
+    ``progress(stage, share)`` hears how far the work is and returns False to cancel.
 
     The result has ``faces`` (each with ``number``, ``kind``, ``edges`` by name and
     ``confidence``), ``readings`` (the best set of faces and the alternatives), ``findings`` (what

@@ -21,7 +21,7 @@ from .model import Drawing, Finding, Identification, sentence
 from .plane import Vector
 from .pose import turn
 
-ENGINES = ("rotation", "varley", "shortest")
+ENGINES = ("rotation", "varley", "shortest", "faceformer")
 """Engines of the library, the default first."""
 
 ORIENTATIONS = ("upright", "drawn")

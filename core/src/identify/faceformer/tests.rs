@@ -1,3 +1,4 @@
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use super::inputs::Inputs;
@@ -5,7 +6,9 @@ use super::walk::Walks;
 use super::*;
 use crate::drawing::{CoEdge, Drawing, Graph, SurfaceKind};
 use crate::identify::postprocess::{Prediction, postprocess};
-use crate::identify::{Engine, EngineKind, IdentifyError, ModelError, engine_with_model, testing};
+use crate::identify::{
+    Engine, EngineKind, Face, IdentifyError, ModelError, engine_with_model, from_truth, testing,
+};
 use crate::{Error, Progress};
 
 fn fixture(name: &str) -> PathBuf {
@@ -52,6 +55,18 @@ fn without_a_model_every_drawing_is_refused() {
     let other = engine_with_model(EngineKind::Seq2seqCoedge, path.to_str());
     let error = refusal(other.as_ref(), &cube).to_string();
     assert!(error.contains("for the engine faceformer"), "{error}");
+}
+
+#[test]
+fn the_model_that_comes_with_the_program_finds_a_cube_and_says_what_it_is() {
+    let cube = testing::cube();
+    let own = engine_with_model(EngineKind::Faceformer, None);
+    let found = own.identify(&cube, Progress::none()).unwrap();
+    let truth = from_truth(&cube).unwrap();
+    let sets =
+        |faces: &[Face]| -> BTreeSet<Vec<usize>> { faces.iter().map(Face::edge_set).collect() };
+    assert!(sets(&found.faces).is_superset(&sets(&truth.faces)));
+    assert!(found.notices[0].contains("trained"), "{:?}", found.notices);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use proptest::prelude::*;
 
 use super::evidence::{Bound, Evidence};

@@ -97,13 +97,16 @@ impl Shapes {
         for (e, edge) in drawing.edges.iter().enumerate() {
             let p = graph.component(edge.v[0]);
             edges[p] += 1;
-            let n = edge.points.len();
+            let last = edge.points.len() - 1;
+            // The same places from either end.
+            let places = [0.0, 0.27, 0.5, 0.73, 1.0];
             let picks = if edge.is_straight() {
-                let (a, b) = (edge.points[0], edge.points[n - 1]);
-                let (y, z) = (depths[e][0], depths[e][n - 1]);
-                [0.0, 0.27, 0.5, 0.73].map(|t| a.lerp(b, t).extend(y + (z - y) * t))
+                let (a, b) = (edge.points[0], edge.points[last]);
+                let (y, z) = (depths[e][0], depths[e][last]);
+                places.map(|t| a.lerp(b, t).extend(y + (z - y) * t))
             } else {
-                [0, n / 4, n / 2, 3 * n / 4].map(|k| edge.points[k].extend(depths[e][k]))
+                let nearest = places.map(|t| (last as f64 * t).round() as usize);
+                nearest.map(|k| edge.points[k].extend(depths[e][k]))
             };
             parts[p].samples.extend(picks);
         }
