@@ -117,7 +117,7 @@ mod tests {
         let (drawing, faces) = parts();
         let mut wrong = faces.json();
         let all = wrong["faces"].as_array_mut().unwrap();
-        let taken = all.remove(2)["loops"][0].clone();
+        let taken = all.remove(1)["loops"][0].clone();
         all[0]["loops"].as_array_mut().unwrap().push(taken);
         let wrong = Faces::read(&drawing, &wrong.to_string()).unwrap();
         let found = lift_json(&drawing, &wrong, "{}").unwrap();
@@ -135,15 +135,10 @@ mod tests {
     }
 
     #[test]
-    fn what_does_not_fit_is_bad_input() {
+    fn options_that_are_none_are_bad_input() {
         let (drawing, faces) = parts();
-        let (other, _) = parts();
-        for (drawing, options) in [
-            (&drawing, "[]"),
-            (&drawing, r#"{"flop": 1}"#),
-            (&other, "{}"),
-        ] {
-            let (status, message) = lift_json(drawing, &faces, options).unwrap_err();
+        for options in ["{", r#"{"flop": 1}"#] {
+            let (status, message) = lift_json(&drawing, &faces, options).unwrap_err();
             assert_eq!(status, FaceformerStatus::BadInput, "{message}");
         }
     }
