@@ -1,6 +1,7 @@
 //! `faceformer solid`: the whole way from a drawing to a solid.
 
 use std::path::Path;
+use std::time::{Duration, Instant};
 
 use faceformer::Progress;
 use faceformer::drawing::Drawing;
@@ -86,7 +87,7 @@ pub(crate) fn run(args: &SolidArgs) -> Result<(), Failure> {
     if let Some(lift) = &taken.result.lift {
         warn(lift);
     }
-    let Made { lift, built } = taken.result;
+    let Made { lift, built, .. } = taken.result;
     let (lift, plan, solid) = match built {
         Ok((plan, solid)) => (lift, plan, solid),
         Err(Failure::Build(error)) => {
@@ -122,27 +123,38 @@ pub(crate) fn run(args: &SolidArgs) -> Result<(), Failure> {
 pub(crate) struct Made {
     /// The depths, if they could be had.
     pub(crate) lift: Option<Lift>,
+    /// Time that lifting took.
+    pub(crate) lift_time: Duration,
     /// The solid with its plan, or the failure of the stage at fault.
     pub(crate) built: Result<(Plan, Solid), Failure>,
+    /// Time that plan and solid took.
+    pub(crate) build_time: Duration,
 }
 
 impl Made {
     /// Lifts, plans and builds.
-    fn of(drawing: &Drawing, faces: &[Face], flip: bool, options: &PlanOptions) -> Self {
-        match lift(drawing, faces, &LiftOptions { flip }, Progress::none()) {
-            Ok(lift) => Self {
-                built: solid(drawing, faces, &lift, options),
-                lift: Some(lift),
-            },
-            Err(error) => Self {
-                lift: None,
-                built: Err(error.into()),
-            },
+    pub(crate) fn of(drawing: &Drawing, faces: &[Face], flip: bool, options: &PlanOptions) -> Self {
+        let start = Instant::now();
+        let lifted = lift(drawing, faces, &LiftOptions { flip }, Progress::none());
+        let lift_time = start.elapsed();
+        let start = Instant::now();
+        let (lift, built) = match lifted {
+            Ok(lift) => {
+                let built = solid(drawing, faces, &lift, options);
+                (Some(lift), built)
+            }
+            Err(error) => (None, Err(error.into())),
+        };
+        Self {
+            lift,
+            lift_time,
+            built,
+            build_time: start.elapsed(),
         }
     }
 
     /// What is wrong with it, if something is.
-    pub(crate) fn fault(&self) -> Option<String> {
+    fn fault(&self) -> Option<String> {
         match &self.built {
             Err(failure) => Some(readings::failure(failure)),
             Ok(_) => self.lift.as_ref().and_then(readings::conflict),

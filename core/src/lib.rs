@@ -16,8 +16,10 @@ mod error;
 pub mod identify;
 pub mod lift;
 pub mod plan;
+mod polygon;
 mod progress;
 pub mod readings;
+mod sets;
 
 pub use error::Error;
 pub use progress::{Progress, Stage};

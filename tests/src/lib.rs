@@ -9,6 +9,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::sync::OnceLock;
 
+use serde_json::{Value, json};
+
 /// Root folder of the repository.
 pub fn root() -> PathBuf {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -160,4 +162,36 @@ impl Run {
         assert_eq!(self.status, 0, "{}", self.stderr);
         self
     }
+}
+
+/// A prism as a drawing and its faces, both in JSON, from where the corners are drawn: those of one
+/// end in order, then those of the other.
+pub fn prism(corners: &[[f64; 2]]) -> (Value, Value) {
+    let n = corners.len() / 2;
+    let next = |i: usize| (i + 1) % n;
+    let near = (0..n).map(|i| [i, next(i)]);
+    let far = (0..n).map(|i| [n + i, n + next(i)]);
+    let across = (0..n).map(|i| [i, n + i]);
+    let edges: Vec<Value> = near
+        .chain(far)
+        .chain(across)
+        .map(|[a, b]| json!({ "v": [a, b], "points": [corners[a], corners[b]] }))
+        .collect();
+    // Edges count from 1 in faces, and one that is walked backwards is negative.
+    let number = |i: usize| i as i64 + 1;
+    let wall = |i: usize| {
+        let (a, b) = (number(2 * n + next(i)), number(2 * n + i));
+        vec![number(i), a, -number(n + i), -b]
+    };
+    let mut loops: Vec<Vec<i64>> = (0..n).map(wall).collect();
+    loops.push((0..n).rev().map(|i| -number(i)).collect());
+    loops.push((0..n).map(|i| number(n + i)).collect());
+    let faces: Vec<Value> = loops
+        .iter()
+        .map(|walk| json!({ "type": "plane", "loops": [walk] }))
+        .collect();
+    (
+        json!({ "vertices": corners, "edges": edges }),
+        json!({ "faces": faces }),
+    )
 }

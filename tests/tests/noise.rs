@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use faceformer_tests::{faceformer, output_dir};
-use serde_json::{Value, json};
+use faceformer_tests::{faceformer, output_dir, prism};
+use serde_json::Value;
 
 /// Profile of a bracket and its width; all angles are right.
 const PROFILE: [[f64; 2]; 6] = [
@@ -43,7 +43,6 @@ impl Normal {
 
 /// The bracket seen from above and from the side, its vertices off by normal noise, and its faces.
 fn shaken_bracket(seed: u64) -> (Value, Value) {
-    let n = PROFILE.len();
     let ((sin, cos), (down, up)) = (0.7f64.sin_cos(), 0.6f64.sin_cos());
     let seen = |[x, z]: [f64; 2], y: f64| [cos * x + sin * y, up * z + down * (cos * y - sin * x)];
     let mut vertices: Vec<[f64; 2]> = [0.0, WIDTH]
@@ -59,37 +58,7 @@ fn shaken_bracket(seed: u64) -> (Value, Value) {
     for v in &mut vertices {
         *v = v.map(|x| x + normal.next() * NOISE * size);
     }
-    let next = |i: usize| (i + 1) % n;
-    let near = (0..n).map(|i| [i, next(i)]);
-    let far = (0..n).map(|i| [n + i, n + next(i)]);
-    let across = (0..n).map(|i| [i, n + i]);
-    let edges: Vec<Value> = near
-        .chain(far)
-        .chain(across)
-        .map(|[a, b]| json!({ "v": [a, b], "points": [vertices[a], vertices[b]] }))
-        .collect();
-    let number = |i: usize| i64::try_from(i + 1).unwrap();
-    let mut loops: Vec<Vec<i64>> = (0..n)
-        .map(|i| {
-            let far_end = -number(n + i);
-            vec![
-                number(i),
-                number(2 * n + next(i)),
-                far_end,
-                -number(2 * n + i),
-            ]
-        })
-        .collect();
-    loops.push((0..n).rev().map(|i| -number(i)).collect());
-    loops.push((0..n).map(|i| number(n + i)).collect());
-    let faces: Vec<Value> = loops
-        .iter()
-        .map(|walk| json!({ "type": "plane", "loops": [walk] }))
-        .collect();
-    (
-        json!({ "vertices": vertices, "edges": edges }),
-        json!({ "faces": faces }),
-    )
+    prism(&vertices)
 }
 
 /// Unit normals of the faces of a plan or a lift.
@@ -149,7 +118,6 @@ fn a_bracket_by_hand_becomes_an_exact_solid() {
         );
         assert_eq!(record["report"]["faces"], 8);
         let volume = record["report"]["volume"].as_f64().unwrap();
-        println!("seed {seed}: {:.3}", volume / VOLUME);
         assert!((volume / VOLUME - 1.0).abs() < OFF, "seed {seed}: {volume}");
     }
 }

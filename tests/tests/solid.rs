@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use faceformer_tests::{faceformer, output_dir, sample};
+use faceformer_tests::{faceformer, output_dir, prism, sample};
 use serde_json::Value;
 
 /// A machined block of the corpus: 19 planes.
@@ -213,40 +213,13 @@ fn the_faces_of_a_solid_that_cannot_be_built_can_be_kept() {
 /// has two faces, but no solid has this boundary.
 fn crossed_prism() -> (Value, Value) {
     let base = [(0, 0), (3, 0), (3, 2), (1, 2), (1, -1), (0, -1)];
-    let n = base.len();
     let seen = |z: f64| {
         base.map(|(x, y)| {
             let (x, y) = (f64::from(x), f64::from(y));
             [0.82 * x - 0.57 * y, 0.24 * x + 0.35 * y + 0.91 * z]
         })
     };
-    let vertices = [seen(0.0), seen(1.5)].concat();
-    let next = |i: usize| (i + 1) % n;
-    let bottom = (0..n).map(|i| [i, next(i)]);
-    let top = (0..n).map(|i| [n + i, n + next(i)]);
-    let upright = (0..n).map(|i| [i, n + i]);
-    let edges: Vec<Value> = bottom
-        .chain(top)
-        .chain(upright)
-        .map(|[a, b]| serde_json::json!({ "v": [a, b], "points": [vertices[a], vertices[b]] }))
-        .collect();
-    let number = |i: usize| i64::try_from(i + 1).unwrap();
-    let mut loops: Vec<Vec<i64>> = (0..n)
-        .map(|i| {
-            let (b, t, u) = (number(i), number(n + i), number(2 * n + i));
-            vec![b, number(2 * n + next(i)), -t, -u]
-        })
-        .collect();
-    loops.push((0..n).rev().map(|i| -number(i)).collect());
-    loops.push((0..n).map(|i| number(n + i)).collect());
-    let faces: Vec<Value> = loops
-        .iter()
-        .map(|walk| serde_json::json!({ "type": "plane", "loops": [walk] }))
-        .collect();
-    (
-        serde_json::json!({ "vertices": vertices, "edges": edges }),
-        serde_json::json!({ "faces": faces }),
-    )
+    prism(&[seen(0.0), seen(1.5)].concat())
 }
 
 #[test]

@@ -1,20 +1,20 @@
 //! One drawing through the stages, timed and compared with its truth.
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
-use faceformer::Progress;
 use faceformer::drawing::{Drawing, SurfaceKind, Truth};
 use faceformer::identify::metrics::DrawingScore;
 use faceformer::identify::{Face, Identification};
-use faceformer::lift::{Lift, LiftOptions, depth_error, lift};
-use faceformer::plan::{Plan, PlanOptions, plan};
-use faceformer::readings;
-use faceformer_occt::{Solid, build};
+use faceformer::lift::{LiftOptions, depth_error, lift};
+use faceformer::plan::PlanOptions;
+use faceformer::{Error, Progress};
 use serde::Serialize;
 
 use super::compare::{Compared, compare};
 use super::random::Random;
 use super::spoil::corrupt;
+use crate::failure::Failure;
+use crate::solid::{Made, make};
 use crate::stages::FacesFrom;
 
 /// Largest depth error of a drawing that counts as lifted, in drawing units (the half diagonal of
@@ -29,10 +29,10 @@ const TOP: usize = 3;
 pub(crate) struct Failed {
     /// The drawing.
     pub(crate) id: String,
-    /// `clean` (clean-up made other edges), `identify`, `lift`, `depth` (lifted, but not as in the truth), `conflict` (a wrong face is not
-    /// named), `plan`, `build`, `chamfer` (the solid is not the true one), `faces`
-    /// (its faces are of other kinds) or `truth` (there is no
-    /// true solid to compare with).
+    /// `clean` (clean-up made other edges), `identify`, `lift`, `depth` (lifted, but not as in the
+    /// truth), `conflict` (a wrong face is not named), `plan`, `build`, `chamfer` (the solid is not
+    /// the true one), `faces` (its faces are of other kinds) or `truth` (there is no true solid to
+    /// compare with).
     pub(crate) stage: &'static str,
     /// Why.
     pub(crate) message: String,
@@ -127,7 +127,7 @@ pub(crate) fn measure(
     };
     let start = Instant::now();
     let found = faces.faces(drawing);
-    let ms = milliseconds(start);
+    let ms = milliseconds(start.elapsed());
     let score = match &found {
         Ok(found) => DrawingScore::of(truth, found, ms),
         Err(failure) => {
@@ -172,7 +172,7 @@ pub(crate) fn measure_corrupted(
     let start = Instant::now();
     match lift(drawing, &faces, &LiftOptions::default(), Progress::none()) {
         Ok(lifted) => {
-            measured.lift_ms = Some(milliseconds(start));
+            measured.lift_ms = Some(milliseconds(start.elapsed()));
             let error = depth_error(&lifted, truth);
             measured.lifted = error <= DEPTH_TOLERANCE;
             if !measured.lifted {
@@ -193,54 +193,24 @@ pub(crate) fn measure_corrupted(
     measured
 }
 
-/// What came of one set of faces, with the times of its stages in milliseconds.
-struct Attempt {
-    lift: Option<Lift>,
-    lift_ms: f64,
-    solid_ms: f64,
-    built: Result<(Plan, Solid), (&'static str, String)>,
+/// The solid of some faces beside the true one; `None` if there is no solid.
+fn beside_truth(
+    made: &Made,
+    drawing: &Drawing,
+    truth: &Truth,
+    faces: &[Face],
+) -> Option<Result<Compared, String>> {
+    let (plan, solid) = made.built.as_ref().ok()?;
+    let lift = made.lift.as_ref()?;
+    Some(compare(drawing, truth, faces, lift, (plan, solid)))
 }
 
-impl Attempt {
-    fn of(drawing: &Drawing, faces: &[Face]) -> Self {
-        let start = Instant::now();
-        let lifted = lift(drawing, faces, &LiftOptions::default(), Progress::none());
-        let lift_ms = milliseconds(start);
-        let start = Instant::now();
-        let built = match &lifted {
-            Ok(lifted) => plan(drawing, faces, lifted, &PlanOptions::default())
-                .map_err(|e| ("plan", e.to_string()))
-                .and_then(|plan| match build(&plan, Progress::none()) {
-                    Ok(solid) => Ok((plan, solid)),
-                    Err(error) => Err(("build", error.to_string())),
-                }),
-            Err(error) => Err(("lift", error.to_string())),
-        };
-        Self {
-            lift: lifted.ok(),
-            lift_ms,
-            solid_ms: milliseconds(start),
-            built,
-        }
-    }
-
-    fn fault(&self) -> Option<String> {
-        match &self.built {
-            Err((_, message)) => Some(readings::failure(message)),
-            Ok(_) => self.lift.as_ref().and_then(readings::conflict),
-        }
-    }
-
-    /// The solid beside the true one; `None` if there is no solid.
-    fn compare(
-        &self,
-        drawing: &Drawing,
-        truth: &Truth,
-        faces: &[Face],
-    ) -> Option<Result<Compared, String>> {
-        let (plan, solid) = self.built.as_ref().ok()?;
-        let lift = self.lift.as_ref()?;
-        Some(compare(drawing, truth, faces, lift, (plan, solid)))
+/// The stage that gave no solid.
+const fn stage(failure: &Failure) -> &'static str {
+    match failure {
+        Failure::Stage(Error::Lift(_)) => "lift",
+        Failure::Stage(Error::Plan(_)) => "plan",
+        _ => "build",
     }
 }
 
@@ -251,16 +221,12 @@ fn measure_solid(
     measured: &mut Measured,
     fail: &mut dyn FnMut(&'static str, String),
 ) {
-    let taken = readings::take(
-        found,
-        readings::ALTERNATIVES,
-        |faces| Attempt::of(drawing, faces),
-        Attempt::fault,
-    );
+    let options = PlanOptions::default();
+    let taken = make(drawing, found, false, &options);
     measured.exchanged = taken.reading > 0;
     let made = taken.result;
     if let Some(lifted) = &made.lift {
-        measured.lift_ms = Some(made.lift_ms);
+        measured.lift_ms = Some(milliseconds(made.lift_time));
         let error = depth_error(lifted, truth);
         measured.lifted = error <= DEPTH_TOLERANCE;
         if !measured.lifted {
@@ -270,11 +236,11 @@ fn measure_solid(
     match &made.built {
         Ok(_) => {
             measured.valid = true;
-            measured.solid_ms = Some(made.solid_ms);
+            measured.solid_ms = Some(milliseconds(made.build_time));
         }
-        Err((stage, message)) => fail(stage, message.clone()),
+        Err(failure) => fail(stage(failure), failure.to_string()),
     }
-    match made.compare(drawing, truth, found.reading(taken.reading)) {
+    match beside_truth(&made, drawing, truth, found.reading(taken.reading)) {
         Some(Ok(compared)) => {
             if !compared.near {
                 let by = compared.chamfer;
@@ -300,7 +266,8 @@ fn measure_solid(
     }
     let near = |k: usize| {
         let faces = found.reading(k);
-        let compared = Attempt::of(drawing, faces).compare(drawing, truth, faces);
+        let made = Made::of(drawing, faces, false, &options);
+        let compared = beside_truth(&made, drawing, truth, faces);
         compared.is_some_and(|c| c.is_ok_and(|c| c.near))
     };
     measured.near_top3 = measured.compared.as_ref().is_some_and(|c| c.near)
@@ -308,6 +275,6 @@ fn measure_solid(
             && (0..TOP.min(1 + found.alternatives.len())).any(|k| k != taken.reading && near(k)));
 }
 
-fn milliseconds(start: Instant) -> f64 {
-    start.elapsed().as_secs_f64() * 1e3
+fn milliseconds(time: Duration) -> f64 {
+    time.as_secs_f64() * 1e3
 }

@@ -76,6 +76,31 @@ impl Camera {
         }
     }
 
+    /// The point that is drawn at `p` at the distance where lengths are drawn as they are.
+    pub(crate) fn unit(&self, p: DVec2) -> DVec3 {
+        match *self {
+            Self::Parallel => p.extend(0.0),
+            Self::Central { focal, .. } => self.place(p, -focal),
+        }
+    }
+
+    /// The heights of two points of which one part of a drawing, moved along the lines of sight, has
+    /// these.
+    pub(crate) fn apart(&self, from: f64, to: f64) -> Relation {
+        match self {
+            Self::Parallel => Relation {
+                to: 1.0,
+                from: 1.0,
+                rise: to - from,
+            },
+            Self::Central { .. } => Relation {
+                to: 1.0,
+                from: to / from,
+                rise: 0.0,
+            },
+        }
+    }
+
     /// Height of a depth z.
     pub(crate) fn height(&self, z: f64) -> f64 {
         match *self {

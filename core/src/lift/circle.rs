@@ -37,8 +37,7 @@ pub(crate) fn circle_through(
     let along = normal.truncate().normalize_or(DVec2::X);
     let u = along.perp().extend(0.0);
     let w = normal.cross(u);
-    let (from, through) = camera.ray(middle);
-    let origin = if camera.is_parallel() { from } else { through };
+    let origin = camera.unit(middle);
     let unfold = |p: DVec2| {
         let (from, ray) = camera.ray(p);
         let d = from + ray * (normal.dot(origin - from) / normal.dot(ray)) - origin;

@@ -7,6 +7,7 @@ use glam::DVec2;
 
 use super::sheet::Sheet;
 use crate::drawing::{CoEdge, Drawing};
+use crate::polygon::{contains, signed_area};
 
 /// Area in the drawing, as a share of the square of its size, below which a face is a line.
 const THIN: f64 = 1e-5;
@@ -39,7 +40,10 @@ fn misplaced(drawing: &Drawing, loops: &[Vec<CoEdge>]) -> Vec<usize> {
     }
     // A face that is seen from its edge has no inside in the drawing.
     let thin = THIN * drawing.size().powi(2);
-    if loops.iter().all(|l| area(&outline(drawing, l)) < thin) {
+    if loops
+        .iter()
+        .all(|l| signed_area(&outline(drawing, l)).abs() < thin)
+    {
         return Vec::new();
     }
     let outside = |ring: &[CoEdge]| -> Vec<usize> {
@@ -95,20 +99,4 @@ fn outline(drawing: &Drawing, ring: &[CoEdge]) -> Vec<DVec2> {
         }
     }
     outline
-}
-
-/// Area of a closed polyline.
-fn area(outline: &[DVec2]) -> f64 {
-    let next = outline.iter().cycle().skip(1);
-    let twice: f64 = outline.iter().zip(next).map(|(a, b)| a.perp_dot(*b)).sum();
-    twice.abs() / 2.0
-}
-
-/// Whether a point is inside of a closed polyline.
-fn contains(outline: &[DVec2], p: DVec2) -> bool {
-    let next = outline.iter().cycle().skip(1);
-    let crossings = outline.iter().zip(next).filter(|(a, b)| {
-        (a.y > p.y) != (b.y > p.y) && p.x < a.x + (b.x - a.x) * (p.y - a.y) / (b.y - a.y)
-    });
-    crossings.count() % 2 == 1
 }

@@ -6,7 +6,6 @@ use glam::DVec2;
 
 use super::Surface;
 use super::assumed::Depth;
-use super::camera::Relation;
 use super::circle::{DrawnCircle, circle_through};
 use super::directions::AGREE;
 use super::rows::{Tag, Unknowns};
@@ -276,10 +275,8 @@ pub(super) fn on_cylinder(sheet: &Sheet<'_>, _: &Unknowns, system: &mut System<T
         let (n, r) = (sheet.axis(k), circle.radius);
         let center = center_of(sheet, sheet.drawing.edges[edge].v[0], k, &circle);
         // The circle where lengths are drawn as they are, see `circle_through`.
-        let (from, ray) = sheet.camera().ray(center.at);
-        let parallel = sheet.camera().is_parallel();
         let cylinder = Surface::Cylinder {
-            origin: if parallel { from } else { ray },
+            origin: sheet.camera().unit(center.at),
             axis: n,
             radius: r,
         };
@@ -316,20 +313,9 @@ pub(super) fn on_cylinder(sheet: &Sheet<'_>, _: &Unknowns, system: &mut System<T
                 terms: vec![(v, 1.0)],
                 shift: 0.0,
             };
-            // `t` is a depth from the centre's, or a ratio of depths.
-            let row = if parallel {
-                Relation {
-                    to: 1.0,
-                    from: 1.0,
-                    rise: t,
-                }
-            } else {
-                Relation {
-                    to: t,
-                    from: 1.0,
-                    rise: 0.0,
-                }
-            };
+            let [from, to] =
+                [cylinder.origin(), from + ray * t].map(|p| sheet.camera().height(p.z));
+            let row = sheet.camera().apart(from, to);
             let weight = (2.0 * error).recip();
             let tag = Tag::Revolved { face };
             center.depth.relate(&own, row, weight, tag, system);

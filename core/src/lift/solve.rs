@@ -238,13 +238,9 @@ fn complete(
         }
         for tie in ties {
             let (weight, tag) = (tie.error.recip(), Tag::Revolved { face: tie.face });
-            if parallel {
-                let terms = [(tie.vertex, 1.0), (main, -1.0)];
-                system.push(terms, tie.height - x[main], weight, tag);
-            } else {
-                let terms = [(tie.vertex, 1.0), (main, -tie.height / x[main])];
-                system.push(terms, 0.0, weight, tag);
-            }
+            let row = sheet.camera().apart(x[main], tie.height);
+            let terms = [(tie.vertex, row.to), (main, -row.from)];
+            system.push(terms, row.rise, weight, tag);
         }
         *null_space = system.null_space()?;
     }

@@ -10,6 +10,7 @@ use serde::Deserialize;
 
 use crate::FaceformerStatus;
 use crate::drawing::FaceformerDrawing;
+use crate::error::CallError;
 use crate::guard::{Out, guard};
 use crate::input;
 use crate::memory::{free_handle, new_json};
@@ -29,6 +30,15 @@ impl FaceformerFaces {
             drawing: Arc::clone(&drawing.0),
             found,
         }))
+    }
+
+    /// Whether these are faces of that drawing.
+    pub(crate) fn check(&self, drawing: &FaceformerDrawing) -> Result<(), CallError> {
+        if Arc::ptr_eq(&drawing.0, &self.drawing) {
+            Ok(())
+        } else {
+            Err(CallError::OtherDrawing)
+        }
     }
 }
 

@@ -1,7 +1,6 @@
 //! Depth on its own: what a drawing and its faces say of space before a solid is made.
 
 use std::ffi::{c_char, c_void};
-use std::sync::Arc;
 
 use faceformer::Progress;
 use faceformer::lift::{self, Lift, LiftOptions};
@@ -77,9 +76,7 @@ fn depths(
     options: &LiftOptions,
     progress: Progress<'_>,
 ) -> Result<Lift, CallError> {
-    if !Arc::ptr_eq(&drawing.0, &faces.drawing) {
-        return Err(CallError::OtherDrawing);
-    }
+    faces.check(drawing)?;
     Ok(lift::lift(
         &drawing.0.drawing,
         &faces.found.faces,
@@ -135,10 +132,15 @@ mod tests {
     }
 
     #[test]
-    fn options_that_are_none_are_bad_input() {
+    fn what_does_not_fit_is_bad_input() {
         let (drawing, faces) = parts();
-        for options in ["{", r#"{"flop": 1}"#] {
-            let (status, message) = lift_json(&drawing, &faces, options).unwrap_err();
+        let (other, _) = parts();
+        for (drawing, options) in [
+            (&drawing, "{"),
+            (&drawing, r#"{"flop": 1}"#),
+            (&other, "{}"),
+        ] {
+            let (status, message) = lift_json(drawing, &faces, options).unwrap_err();
             assert_eq!(status, FaceformerStatus::BadInput, "{message}");
         }
     }

@@ -2,7 +2,6 @@
 
 use std::ffi::{c_char, c_void};
 use std::path::Path;
-use std::sync::Arc;
 
 use faceformer::drawing::Drawing;
 use faceformer::identify::Face;
@@ -153,9 +152,7 @@ fn make(
     options: &SolidOptions,
     progress: Progress<'_>,
 ) -> Result<Taken<Result<Made, CallError>>, CallError> {
-    if !Arc::ptr_eq(&drawing.0, &faces.drawing) {
-        return Err(CallError::OtherDrawing);
-    }
+    faces.check(drawing)?;
     let scale = options.scale;
     if !(scale.is_finite() && scale > 0.0) {
         return Err(CallError::Scale(scale));

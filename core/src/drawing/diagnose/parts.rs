@@ -5,6 +5,7 @@ use glam::DVec2;
 use super::super::clean::names;
 use super::super::{Finding, FindingKind, Severity};
 use super::Case;
+use crate::sets::Sets;
 
 /// Says into which parts the drawing falls, and warns of parts that are drawn apart from all others.
 ///
@@ -88,23 +89,15 @@ fn groups(hulls: &[Vec<DVec2>]) -> Vec<usize> {
         })
         .collect();
     order.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut group: Vec<usize> = (0..hulls.len()).collect();
+    let mut group = Sets::new(hulls.len());
     for (k, &(_, end, i)) in order.iter().enumerate() {
         for &(_, _, j) in order[k + 1..].iter().take_while(|o| o.0 <= end) {
-            let (a, b) = (root(&group, i), root(&group, j));
-            if a != b && overlap(&hulls[i], &hulls[j]) {
-                group[a.max(b)] = a.min(b);
+            if group.find(i) != group.find(j) && overlap(&hulls[i], &hulls[j]) {
+                group.join(i, j);
             }
         }
     }
-    (0..hulls.len()).map(|i| root(&group, i)).collect()
-}
-
-fn root(group: &[usize], mut i: usize) -> usize {
-    while group[i] != i {
-        i = group[i];
-    }
-    i
+    (0..hulls.len()).map(|i| group.find(i)).collect()
 }
 
 /// Convex hull, counter-clockwise (Andrew's monotone chain).

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::score::edges;
 use crate::drawing::Truth;
 use crate::identify::Face;
 
@@ -24,10 +25,9 @@ impl Mistakes {
     pub fn of(truth: &Truth, faces: &[Face]) -> Self {
         let mut open: BTreeMap<Vec<usize>, Vec<usize>> = BTreeMap::new();
         for (f, face) in truth.faces.iter().enumerate() {
-            let mut edges: Vec<usize> = face.loops.iter().flatten().map(|c| c.edge()).collect();
-            edges.sort_unstable();
-            edges.dedup();
-            open.entry(edges).or_default().push(f);
+            open.entry(edges(face.loops.iter().flatten()))
+                .or_default()
+                .push(f);
         }
         let mut mistakes = Self::default();
         for (f, face) in faces.iter().enumerate() {

@@ -137,7 +137,7 @@ pub(super) fn share(part: usize, whole: usize) -> f64 {
 }
 
 /// The sorted set of edges of some co-edges.
-fn edges<'a>(coedges: impl IntoIterator<Item = &'a CoEdge>) -> Vec<usize> {
+pub(super) fn edges<'a>(coedges: impl IntoIterator<Item = &'a CoEdge>) -> Vec<usize> {
     let mut edges: Vec<usize> = coedges.into_iter().map(|c| c.edge()).collect();
     edges.sort_unstable();
     edges.dedup();

@@ -3,6 +3,7 @@
 use super::RotationSystem;
 use super::decode::Field;
 use crate::drawing::{CoEdge, Graph};
+use crate::sets::Sets;
 
 /// The parts that a maximum spanning forest falls into when one of its edges is cut.
 ///
@@ -63,7 +64,7 @@ impl Cuts {
         let n = graph.vertex_count();
         let mut edges: Vec<usize> = (0..stiffness.len()).collect();
         edges.sort_by(|&a, &b| stiffness[b].total_cmp(&stiffness[a]).then(a.cmp(&b)));
-        let mut sets = Sets((0..n).collect());
+        let mut sets = Sets::new(n);
         let mut links: Vec<Vec<usize>> = vec![Vec::new(); n];
         for e in edges {
             let c = CoEdge::new(e, false);
@@ -130,24 +131,5 @@ impl Cuts {
             visit(u);
             u = up;
         }
-    }
-}
-
-/// Disjoint sets.
-struct Sets(Vec<usize>);
-
-impl Sets {
-    fn find(&mut self, mut x: usize) -> usize {
-        while self.0[x] != x {
-            self.0[x] = self.0[self.0[x]];
-            x = self.0[x];
-        }
-        x
-    }
-
-    fn join(&mut self, a: usize, b: usize) -> bool {
-        let (a, b) = (self.find(a), self.find(b));
-        self.0[a] = b;
-        a != b
     }
 }

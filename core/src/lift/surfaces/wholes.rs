@@ -2,27 +2,11 @@
 
 use crate::drawing::SurfaceKind;
 use crate::lift::sheet::Sheet;
+use crate::sets::Sets;
 
 /// Circles whose centres and radii differ by less than this, relative to the drawing's size, are
 /// drawn as one.
 const SAME_CIRCLE: f64 = 1e-4;
-
-/// Parts that belong together.
-struct Parts(Vec<usize>);
-
-impl Parts {
-    fn root(&self, mut f: usize) -> usize {
-        while self.0[f] != f {
-            f = self.0[f];
-        }
-        f
-    }
-
-    fn join(&mut self, a: usize, b: usize) {
-        let (a, b) = (self.root(a), self.root(b));
-        self.0[a.max(b)] = a.min(b);
-    }
-}
 
 /// Curved faces of one kind that share an edge, or that arcs of one circle bound: an outline splits
 /// a surface, and so do the walls that cut the chamfer of a nut.
@@ -50,7 +34,7 @@ fn wholes(
     counts: impl Fn(SurfaceKind) -> bool,
 ) -> Vec<Vec<usize>> {
     let kind = |f: usize| sheet.faces[f].kind;
-    let mut parts = Parts((0..sheet.faces.len()).collect());
+    let mut parts = Sets::new(sheet.faces.len());
     let mut circles: Vec<(usize, usize)> = Vec::new();
     for edge in 0..sheet.drawing.edges.len() {
         if let [a, b] = *sheet.neighbours(edge)
@@ -77,7 +61,7 @@ fn wholes(
     }
     let mut wholes: Vec<Vec<usize>> = vec![Vec::new(); sheet.faces.len()];
     for f in (0..sheet.faces.len()).filter(|&f| !sheet.is_planar(f) && counts(kind(f))) {
-        wholes[parts.root(f)].push(f);
+        wholes[parts.find(f)].push(f);
     }
     wholes.retain(|w| !w.is_empty());
     wholes

@@ -15,6 +15,7 @@ use super::links::{Link, LinkKind};
 use super::score::JoinScorer;
 use super::shapes::Shapes;
 use super::trials::{Run, Step, push_trials};
+use crate::sets::Sets;
 
 /// Joins of a part that are kept.
 const JOINS: usize = 6;
@@ -136,24 +137,15 @@ impl<'a> Search<'a> {
     /// Pieces of the solid, but one, that no face joins to another.
     fn loose(&self, state: &State) -> usize {
         let shapes = self.joiner.shapes;
-        let mut piece: Vec<usize> = (0..shapes.parts.len()).collect();
-        let mut pieces = piece.len();
-        fn root(piece: &[usize], mut part: usize) -> usize {
-            while piece[part] != part {
-                part = piece[part];
-            }
-            part
-        }
+        let mut pieces = Sets::new(shapes.parts.len());
+        let mut joined = 0;
         for (outer, inner) in state.inner.iter().enumerate() {
             for &i in inner {
-                let [a, b] = [outer, i].map(|l| root(&piece, shapes.loops[l].part));
-                if a != b {
-                    piece[b] = a;
-                    pieces -= 1;
-                }
+                let [a, b] = [outer, i].map(|l| shapes.loops[l].part);
+                joined += usize::from(pieces.join(a, b));
             }
         }
-        pieces.saturating_sub(1)
+        shapes.parts.len().saturating_sub(joined + 1)
     }
 
     fn keep_one(

@@ -6,6 +6,7 @@ use super::axis::{AxisLine, axis_line, is_ring};
 use crate::drawing::{Curve2, Drawing, Graph, SurfaceKind};
 use crate::identify::Face;
 use crate::lift::{Camera, Pieces, Tilt};
+use crate::polygon;
 
 /// Error of depth that is allowed, relative to the drawing's size.
 const SAME: f64 = 2e-3;
@@ -197,18 +198,7 @@ impl Outline {
 
     /// Whether a drawn point is inside.
     pub(super) fn contains(&self, p: DVec2) -> bool {
-        if p.cmplt(self.low).any() || p.cmpgt(self.high).any() {
-            return false;
-        }
-        let mut inside = false;
-        let n = self.polygon.len();
-        for i in 0..n {
-            let (a, b) = (self.polygon[i], self.polygon[(i + 1) % n]);
-            if (a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x {
-                inside = !inside;
-            }
-        }
-        inside
+        p.cmpge(self.low).all() && p.cmple(self.high).all() && polygon::contains(&self.polygon, p)
     }
 
     /// Mean depth of a fan of triangles over the loop times its signed area.
@@ -315,7 +305,7 @@ fn outline(
     let mut outline = Outline {
         part,
         vertices,
-        area: area(&polygon),
+        area: polygon::signed_area(&polygon),
         polygon,
         depths,
         low,
@@ -334,12 +324,4 @@ fn outline(
         outline.line = axis_line(drawing, pieces, face).filter(|l| outline.contains(l.at));
     }
     outline
-}
-
-fn area(polygon: &[DVec2]) -> f64 {
-    let n = polygon.len();
-    (0..n)
-        .map(|i| polygon[i].perp_dot(polygon[(i + 1) % n]))
-        .sum::<f64>()
-        / 2.0
 }
