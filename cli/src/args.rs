@@ -216,6 +216,9 @@ pub(crate) struct EvalArgs {
     /// File for what was refused or failed: JSON lines with id, stage and message
     #[arg(long, value_name = "FILE")]
     pub(crate) failures: Option<PathBuf>,
+    /// File for the figures of every drawing: JSON lines
+    #[arg(long, value_name = "FILE")]
+    pub(crate) each: Option<PathBuf>,
 }
 
 /// Arguments of `features`. The options vary the drawings in ways that leave their faces.

@@ -2,6 +2,7 @@
 
 mod bar;
 mod compare;
+mod each;
 mod figures;
 mod measure;
 mod random;
@@ -15,6 +16,7 @@ use crate::failure::Failure;
 use crate::output::{Output, finish, json_line, print};
 use crate::stages::FacesFrom;
 pub(crate) use bar::Bar;
+use each::Row;
 use figures::Figures;
 use measure::{Measured, measure, measure_corrupted, refused};
 use random::Random;
@@ -40,6 +42,8 @@ pub(crate) fn run(args: &EvalArgs) -> Result<(), Failure> {
         }
     }
     let failures = args.failures.as_deref().map(Output::create).transpose()?;
+    let each = args.each.as_deref().map(Output::create).transpose()?;
+    let mut rows = Vec::new();
     let bad_input = |source| Failure::Drawing {
         name: args.data.display().to_string(),
         source,
@@ -67,14 +71,18 @@ pub(crate) fn run(args: &EvalArgs) -> Result<(), Failure> {
         if let Some(percent) = args.noise {
             spoil::shake(&mut spoilt, percent / 100.0, &mut random);
         }
-        measured.push(match (args.corrupt, args.gap) {
+        let result = match (args.corrupt, args.gap) {
             (Some(count), _) => measure_corrupted(&spoilt, truth, &faces, count, &mut random),
             (None, Some(percent)) => match spoil::part(&spoilt, percent / 100.0, &mut random) {
                 Ok(cleaned) => measure(&cleaned, truth, &faces, args.solids),
                 Err(why) => refused(&drawing.id, truth, why),
             },
             (None, None) => measure(&spoilt, truth, &faces, args.solids),
-        });
+        };
+        if each.is_some() {
+            rows.extend(json_line(&Row::of(&drawing, truth, &result, args.solids))?);
+        }
+        measured.push(result);
         bar.advance(measured.len());
     }
     bar.clear();
@@ -90,6 +98,9 @@ pub(crate) fn run(args: &EvalArgs) -> Result<(), Failure> {
             lines.extend(json_line(failed)?);
         }
         finish(Some(output), &lines)?;
+    }
+    if each.is_some() {
+        finish(each, &rows)?;
     }
     let figures = Figures::of(&measured, args.solids);
     if args.json {
