@@ -109,7 +109,10 @@ def calibration(rows: Iterable[Row], key: str) -> np.ndarray:
 
 
 def draw_calibration(files: dict[str, list[Row]], path: Path) -> None:
-    """Confidence against the share that is right, loops beside faces, a line a file."""
+    """Confidence against the share that is right, loops beside faces, a line a file.
+
+    The area of a point grows with the share of the items that it stands for.
+    """
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(9, 4.2), layout="constrained")
@@ -122,7 +125,9 @@ def draw_calibration(files: dict[str, list[Row]], path: Path) -> None:
             if not len(bins):  # An engine that tells no confidences.
                 continue
             error = float(np.abs(bins[:, 0] - bins[:, 1]) @ bins[:, 2] / bins[:, 2].sum())
-            axes.plot(bins[:, 0], bins[:, 1], marker="o", label=f"{label} (error {error:.3f})")
+            (line,) = axes.plot(bins[:, 0], bins[:, 1], label=f"{label} (error {error:.3f})")
+            areas = 8 + 200 * bins[:, 2] / bins[:, 2].sum()
+            axes.scatter(bins[:, 0], bins[:, 1], areas, color=line.get_color(), alpha=0.7)
         axes.set(xlabel=f"confidence of {what}", ylabel="share that is right")
         axes.set(xlim=(0, 1.01), ylim=(0, 1.01), aspect="equal")
         if axes.get_legend_handles_labels()[0]:

@@ -17,6 +17,9 @@ const GIVEN: usize = 6;
 /// Cost of a circle or a silhouette of which neither side has a second loop.
 const FLAT_BODY: f64 = 8.0;
 
+/// Cost of two discs in one plane, one inside the other: the solid would touch itself.
+const OVERLAP: f64 = 8.0;
+
 /// Cost of a pair that is no pair of the chain's, where it is found.
 const STRANGE: f64 = 4.0;
 
@@ -94,6 +97,7 @@ impl Chain {
             if self.mate[r].is_some_and(|m| m < r && single(m)) {
                 now += FLAT_BODY;
             }
+            now += OVERLAP * self.around[r].iter().filter(|&&s| single(s)).count() as f64;
         }
         let known = self.found.borrow().get(&used).cloned();
         let found = known.unwrap_or_else(|| {
@@ -169,6 +173,8 @@ impl Chain {
                     if self.mate[r].is_some_and(|m| lonely.alone[m]) {
                         lonely.cost += FLAT_BODY;
                     }
+                    let around = self.around[r].iter().filter(|&&s| lonely.alone[s]);
+                    lonely.cost += OVERLAP * around.count() as f64;
                 }
                 next.push(lonely);
             }

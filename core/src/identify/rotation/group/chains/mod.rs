@@ -61,6 +61,8 @@ pub(super) struct Chain {
     alone: Vec<f64>,
     /// The other loop of a part that is one closed edge.
     mate: Vec<Option<usize>>,
+    /// Larger flat rings in whose plane and inside of which each flat one is.
+    around: Vec<Vec<usize>>,
     /// Matchings found, by how rings are used outside of the chain.
     found: RefCell<BTreeMap<Vec<Use>, Rc<[Partial]>>>,
 }
@@ -187,14 +189,37 @@ impl Chain {
                 other.filter(|_| shapes.parts[part].is_circle)
             })
             .collect();
+        let around = (0..rings.len())
+            .map(|i| {
+                (0..i)
+                    .filter(|&j| over(shapes, &rings[j], &rings[i]))
+                    .collect()
+            })
+            .collect();
         Self {
             rings,
             pairs,
             alone,
             mate,
+            around,
             found: RefCell::default(),
         }
     }
+}
+
+/// Whether two rings are flat and in one plane, the second one inside the first.
+fn over(shapes: &Shapes, outer: &Ring, inner: &Ring) -> bool {
+    let [a, b] = [outer, inner].map(|r| &shapes.loops[r.outline]);
+    let flat = |o: &Outline| o.kind == SurfaceKind::Plane && !o.curved && !o.fold;
+    let one_place = match (outer.along, inner.along) {
+        (Some(s), Some(t)) => (s - t).abs() < shapes.tolerance,
+        _ => false,
+    };
+    one_place
+        && a.part != b.part
+        && flat(a)
+        && flat(b)
+        && shapes.nested(outer.outline, inner.outline)
 }
 
 /// What it costs that a loop is one of a face of that kind; `None` if it cannot be.

@@ -70,3 +70,38 @@ fn a_ring_has_no_end() {
     let ring = faces(&[(1.0, 0.0), (3.0, 0.0), (2.0, 0.3)]);
     assert_eq!(ring, sets(&[&[0, 1], &[1, 2], &[2, 0]]));
 }
+
+#[test]
+fn no_two_discs_are_in_one_plane() {
+    // Sleeves with a collar, and one with a groove around its top.
+    let profiles: [&[(f64, f64)]; 3] = [
+        &[(1.0, 0.0), (2.0, 0.0), (2.0, 0.3), (1.0, 0.3)],
+        &[
+            (1.0, 0.0),
+            (3.0, 0.0),
+            (3.0, 0.2),
+            (2.0, 0.2),
+            (2.0, 0.5),
+            (1.0, 0.5),
+        ],
+        &[
+            (2.6, 0.0),
+            (3.0, 0.0),
+            (3.0, 0.4),
+            (2.8, 0.4),
+            (2.8, 0.6),
+            (2.6, 0.6),
+        ],
+    ];
+    for profile in profiles {
+        let found = faces(profile);
+        let discs: Vec<f64> = found
+            .iter()
+            .filter(|face| face.len() == 1)
+            .map(|face| profile[*face.first().expect("one circle")].1)
+            .collect();
+        let one_plane = discs.iter().enumerate();
+        let twice = one_plane.filter(|(k, height)| discs[..*k].contains(height));
+        assert_eq!(twice.count(), 0, "{profile:?}: {found:?}");
+    }
+}
