@@ -1,15 +1,41 @@
 //! Lifting loops before they are grouped into faces: parts of the drawing that share no vertex each
 //! keep a depth of their own.
 
+use std::borrow::Cow;
+
 use glam::{DVec2, DVec3};
 
 use super::circle::DrawnCircle;
 use super::directions::Directions;
 use super::sheet::Sheet;
 use super::solve::{self, Solved};
+use super::straight::straightened;
 use super::{Camera, LiftError};
 use crate::drawing::Drawing;
 use crate::identify::Face;
+
+/// A drawing with all readings of its directions; one by hand is made straight by each.
+pub(crate) struct Readings<'a> {
+    all: Vec<(Cow<'a, Drawing>, Directions)>,
+}
+
+impl<'a> Readings<'a> {
+    /// The readings of a drawing, none if nothing tells directions.
+    pub(crate) fn new(drawing: &'a Drawing) -> Self {
+        let mut all: Vec<(Cow<'a, Drawing>, Directions)> = straightened(drawing)
+            .into_iter()
+            .map(|s| (Cow::Owned(s.drawing), s.directions))
+            .collect();
+        if all.is_empty() {
+            let candidates = Directions::candidates(drawing).unwrap_or_default();
+            all = candidates
+                .into_iter()
+                .map(|d| (Cow::Borrowed(drawing), d))
+                .collect();
+        }
+        Self { all }
+    }
+}
 
 /// A lifted drawing whose parts may still move in depth against each other.
 pub(crate) struct Pieces {
@@ -20,6 +46,8 @@ pub(crate) struct Pieces {
     pub(crate) axes: Vec<DVec3>,
     circles: Vec<Option<(usize, DrawnCircle)>>,
     pub(crate) camera: Camera,
+    /// Standard error of the drawing's coordinates, drawing units.
+    pub(crate) precision: f64,
 }
 
 /// A plane of the heights `h = -(a x + b y + c)`; see [`Camera`].
@@ -48,31 +76,34 @@ impl Tilt {
 }
 
 impl Pieces {
-    /// Lifts a drawing with the given faces, of all readings of its directions the one that
-    /// contradicts the faces least.
+    /// Lifts a drawing with the given faces, of all readings of its directions by the one that
+    /// contradicts the faces least; returns it with the drawing that it lifts.
     ///
     /// # Errors
     /// As [`lift`](super::lift()), but depths may stay open.
-    pub(crate) fn new(drawing: &Drawing, faces: &[Face]) -> Result<Self, LiftError> {
-        let mut best: Option<(usize, Self)> = None;
+    pub(crate) fn new<'a>(
+        readings: &'a Readings<'_>,
+        faces: &[Face],
+    ) -> Result<(&'a Drawing, Self), LiftError> {
+        let mut best: Option<(usize, &Drawing, Self)> = None;
         let mut refusal = None;
-        for reading in Directions::candidates(drawing)? {
+        for (drawing, reading) in &readings.all {
             if best.as_ref().is_some_and(|b| b.0 == 0) {
                 break;
             }
-            let sheet = Sheet::new(drawing, faces, &reading);
+            let sheet = Sheet::new(drawing, faces, reading);
             match solve::solve_parts(&sheet) {
                 Ok(solved) => {
                     let dropped = solved.dropped();
                     if best.as_ref().is_none_or(|b| 2 * dropped < b.0) {
-                        best = Some((dropped, Self::of(&sheet, solved)));
+                        best = Some((dropped, drawing, Self::of(&sheet, solved)));
                     }
                 }
                 Err(error) => refusal = Some(error),
             }
         }
         match (best, refusal) {
-            (Some((_, pieces)), _) => Ok(pieces),
+            (Some((_, drawing, pieces)), _) => Ok((drawing, pieces)),
             (None, Some(error)) => Err(error),
             (None, None) => Err(LiftError::NoDirections("no reading".into())),
         }
@@ -85,6 +116,7 @@ impl Pieces {
             axes: sheet.directions.axes.iter().map(|a| a.direction).collect(),
             circles: sheet.circles.clone(),
             camera: *sheet.camera(),
+            precision: sheet.directions.precision,
         }
     }
 

@@ -5,6 +5,7 @@ use super::reading::{Doubts, Reader};
 use super::variants::variants;
 use super::{Field, HandScorer, TripleScorer, Triples, model};
 use crate::drawing::{Drawing, Graph};
+use crate::lift::Readings;
 use crate::identify::{Engine, EngineKind, Identification, IdentifyError};
 use crate::{Progress, Result, Stage};
 
@@ -72,8 +73,10 @@ impl Engine for RotationEngine {
         let doubts = Doubts::new(&field, &system);
         let readings = variants(&field, system, &doubts);
         let frame = (readings.len() > 1).then(|| Frame::new(drawing));
+        let directions = Readings::new(drawing);
         let reader = Reader {
             drawing,
+            readings: &directions,
             field: &field,
             kinds: scores.kinds.as_deref(),
             frame: frame.as_ref(),

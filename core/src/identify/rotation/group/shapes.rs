@@ -11,6 +11,9 @@ use crate::polygon;
 /// Error of depth that is allowed, relative to the drawing's size.
 const SAME: f64 = 2e-3;
 
+/// The same in errors of the drawing.
+const ERRORS: f64 = 3.0;
+
 /// A loop.
 #[derive(Debug, Clone)]
 pub(super) struct Outline {
@@ -121,7 +124,7 @@ impl Shapes {
             own: pieces.axes.len(),
             camera: pieces.camera,
             size: drawing.size(),
-            tolerance: SAME * drawing.size(),
+            tolerance: (SAME * drawing.size()).max(ERRORS * pieces.precision),
         }
     }
 
