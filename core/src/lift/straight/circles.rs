@@ -51,6 +51,56 @@ fn unfold(n: DVec3) -> DMat2 {
     DMat2::from_cols(across, along / n.z.abs()).transpose()
 }
 
+/// Errors within which the points of a circle are on it, and how many times as badly they fit
+/// circles around other axes.
+const ON: f64 = 3.0;
+const CLEARLY: f64 = 3.0;
+
+/// Adds arcs to the axes that they are drawn as circles around, which alone are too short or too
+/// inexact to tell an axis: two arcs between the same vertices are taken together.
+pub(super) fn take_in(drawing: &Drawing, directions: &mut Directions) {
+    let free = |e: &usize| {
+        !drawing.edges[*e].is_straight() && directions.axis_of_circle(*e).is_none()
+    };
+    let open: Vec<usize> = (0..drawing.edges.len()).filter(free).collect();
+    let ends = |e: usize| {
+        let [a, b] = drawing.edges[e].v;
+        [a.min(b), a.max(b)]
+    };
+    let mut found: Vec<(usize, Vec<usize>)> = Vec::new();
+    for (i, &e) in open.iter().enumerate() {
+        let twins = open.iter().copied().filter(|&f| f != e && ends(f) == ends(e));
+        let twins: Vec<usize> = twins.collect();
+        let group = match twins[..] {
+            [] if ends(e)[0] == ends(e)[1] => vec![e],
+            [f] if open[..i].contains(&f) => continue,
+            [f] => vec![e, f],
+            _ => continue,
+        };
+        let points: Vec<DVec2> = group
+            .iter()
+            .flat_map(|&e| drawing.edges[e].points.iter().copied())
+            .collect();
+        let misses = directions.axes.iter().map(|axis| {
+            let circle = circle_through(&points, axis.direction, &Camera::Parallel);
+            circle.map_or(f64::INFINITY, |c| c.residual * axis.direction.z.abs())
+        });
+        let misses: Vec<f64> = misses.collect();
+        let best = (0..misses.len()).min_by(|&a, &b| misses[a].total_cmp(&misses[b]));
+        let Some(best) = best else { continue };
+        let rival = (0..misses.len())
+            .filter(|&k| k != best)
+            .map(|k| misses[k])
+            .fold(f64::INFINITY, f64::min);
+        if misses[best] < ON * directions.precision && rival > CLEARLY * misses[best] {
+            found.push((best, group));
+        }
+    }
+    for (axis, edges) in found {
+        directions.axes[axis].circles.extend(edges);
+    }
+}
+
 /// The circles that a reading tells, arcs of one circle together.
 pub(super) fn circles(drawing: &Drawing, directions: &Directions) -> Vec<Circle> {
     let mut all: Vec<Circle> = Vec::new();

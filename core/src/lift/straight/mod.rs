@@ -34,8 +34,9 @@ pub(crate) fn straightened(drawing: &Drawing) -> Vec<Straight> {
 }
 
 /// The drawing made straight by one reading; `None` if it cannot be solved.
-fn straighten(drawing: &Drawing, reading: Directions) -> Option<Straight> {
+fn straighten(drawing: &Drawing, mut reading: Directions) -> Option<Straight> {
     let drawing = recognised(drawing, reading.precision);
+    circles::take_in(&drawing, &mut reading);
     let mut bundle = Bundle::new(&drawing, &reading);
     let fitted = bundle.solve()?;
     let mut directions = reading.clone();

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::body::Place;
 use super::joins::{Joiner, State};
-use super::links::{Link, PARALLEL};
+use super::links::Link;
 
 impl Joiner<'_> {
     pub(super) fn clearance(&self, link: &Link) -> f64 {
@@ -53,7 +53,7 @@ impl Joiner<'_> {
     }
 
     fn same(&self, a: f64, b: f64) -> bool {
-        (a - b).abs() < 1e-3 * self.shapes.size
+        (a - b).abs() < self.shapes.near
     }
 
     /// Distance between the centres of two circles in their plane.
@@ -121,8 +121,7 @@ impl Joiner<'_> {
                 let link = &self.links[l];
                 link.outer == i || link.inner == i
             });
-            let Some(p) = loops[i].plane else { continue };
-            if linked {
+            if linked || loops[i].plane.is_none() {
                 continue;
             }
             count += 1;
@@ -130,9 +129,8 @@ impl Joiner<'_> {
             hits += usize::from(loops.iter().any(|b| {
                 b.part != part
                     && state.placed[b.part].is_some_and(|base| {
-                        b.plane.is_some_and(|q| {
-                            p.normal().cross(q.normal()).length() < PARALLEL
-                                && (p.level(at) + place.shift - q.level(at) - base.shift).abs()
+                        self.shapes.parallel(&loops[i], b).is_some_and(|(p, q)| {
+                            (p.level(at) + place.shift - q.level(at) - base.shift).abs()
                                     < self.shapes.tolerance
                         })
                     })

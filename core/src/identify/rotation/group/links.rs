@@ -4,16 +4,9 @@ use glam::DVec2;
 
 use super::shapes::{Outline, Shapes};
 use crate::drawing::SurfaceKind;
-use crate::lift::Tilt;
-
-/// Sine of the angle between normals up to which planes are parallel.
-pub(super) const PARALLEL: f64 = 5e-3;
 
 /// Share of the inner loop's points that must be drawn inside the outer one.
 const INSIDE: f64 = 0.9;
-
-/// Distance from a drawn axis, relative to the drawing's size, up to which a centre is on it.
-const ON_AXIS: f64 = 2e-3;
 
 /// Points of a loop that are looked at.
 const POINTS: usize = 32;
@@ -59,14 +52,14 @@ pub(super) fn links(shapes: &Shapes) -> Vec<Link> {
 
 fn flat_or_coaxial(shapes: &Shapes) -> Vec<Link> {
     let mut links = Vec::new();
-    let slack = DVec2::splat(1e-6 * shapes.size);
+    let slack = DVec2::splat((1e-6 * shapes.size).max(shapes.error));
     for (i, a) in shapes.loops.iter().enumerate() {
         for (j, b) in shapes.loops.iter().enumerate() {
             let apart = b.low.cmplt(a.low - slack).any() || b.high.cmpgt(a.high + slack).any();
             if i == j || apart || b.area.abs() >= a.area.abs() {
                 continue;
             }
-            let coplanar = parallel(a, b).map(|(p, q)| {
+            let coplanar = shapes.parallel(a, b).map(|(p, q)| {
                 let middle = (b.low + b.high) / 2.0;
                 p.level(middle) - q.level(middle)
             });
@@ -152,11 +145,6 @@ fn depth_on(a: &Outline, b: &Outline) -> Option<f64> {
     (count > 0).then(|| all.sum::<f64>() / count as f64)
 }
 
-fn parallel(a: &Outline, b: &Outline) -> Option<(Tilt, Tilt)> {
-    let (p, q) = (a.plane?, b.plane?);
-    (p.normal().cross(q.normal()).length() < PARALLEL).then_some((p, q))
-}
-
 /// Offset in depth that puts two loops' axes into one line, if they are drawn so.
 fn coaxial(shapes: &Shapes, a: &Outline, b: &Outline) -> Option<f64> {
     let (p, q) = (a.line?, b.line?);
@@ -167,7 +155,7 @@ fn coaxial(shapes: &Shapes, a: &Outline, b: &Outline) -> Option<f64> {
     let drawn = shapes.camera.drawn(axis, p.at);
     let length = drawn.length();
     let apart = q.at - p.at;
-    if length < 1e-3 || apart.perp_dot(drawn).abs() > ON_AXIS * shapes.size * length {
+    if length < 1e-3 || apart.perp_dot(drawn).abs() > shapes.on_axis() * length {
         return None;
     }
     Some(p.depth + shapes.camera.climb(axis, p.at, q.at) - q.depth)

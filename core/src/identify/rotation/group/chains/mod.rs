@@ -76,7 +76,7 @@ pub(super) fn chains(shapes: &Shapes, links: &[Link]) -> Vec<Chain> {
         }
         let off = |at: DVec2| (at - line.at).perp_dot(along.normalize()).abs();
         let near =
-            |g: &&mut (usize, DVec2, Vec<usize>)| g.0 == line.axis && off(g.1) < 2e-3 * shapes.size;
+            |g: &&mut (usize, DVec2, Vec<usize>)| g.0 == line.axis && off(g.1) < shapes.on_axis();
         match groups.iter_mut().find(near) {
             Some(group) => group.2.push(i),
             None => groups.push((line.axis, line.at, vec![i])),
