@@ -5,8 +5,8 @@ use super::reading::{Doubts, Reader};
 use super::variants::variants;
 use super::{Field, HandScorer, TripleScorer, Triples, model};
 use crate::drawing::{Drawing, Graph};
-use crate::lift::Readings;
 use crate::identify::{Engine, EngineKind, Identification, IdentifyError};
+use crate::lift::Readings;
 use crate::{Progress, Result, Stage};
 
 /// Most edges at one vertex that the engine handles.

@@ -59,9 +59,8 @@ const CLEARLY: f64 = 3.0;
 /// Adds arcs to the axes that they are drawn as circles around, which alone are too short or too
 /// inexact to tell an axis: two arcs between the same vertices are taken together.
 pub(super) fn take_in(drawing: &Drawing, directions: &mut Directions) {
-    let free = |e: &usize| {
-        !drawing.edges[*e].is_straight() && directions.axis_of_circle(*e).is_none()
-    };
+    let free =
+        |e: &usize| !drawing.edges[*e].is_straight() && directions.axis_of_circle(*e).is_none();
     let open: Vec<usize> = (0..drawing.edges.len()).filter(free).collect();
     let ends = |e: usize| {
         let [a, b] = drawing.edges[e].v;
@@ -69,7 +68,10 @@ pub(super) fn take_in(drawing: &Drawing, directions: &mut Directions) {
     };
     let mut found: Vec<(usize, Vec<usize>)> = Vec::new();
     for (i, &e) in open.iter().enumerate() {
-        let twins = open.iter().copied().filter(|&f| f != e && ends(f) == ends(e));
+        let twins = open
+            .iter()
+            .copied()
+            .filter(|&f| f != e && ends(f) == ends(e));
         let twins: Vec<usize> = twins.collect();
         let group = match twins[..] {
             [] if ends(e)[0] == ends(e)[1] => vec![e],

@@ -192,7 +192,9 @@ impl<'a> Bundle<'a> {
             .sum();
         let told = self.conditions.len().min(2 * drawn.len()).max(1);
         let error = (squares / told as f64).sqrt();
-        error.is_finite().then_some((Fitted { vertices, error }, forces))
+        error
+            .is_finite()
+            .then_some((Fitted { vertices, error }, forces))
     }
 
     /// Rows about the next step, those of the conditions first.

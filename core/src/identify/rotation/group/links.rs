@@ -30,6 +30,8 @@ pub(super) struct Link {
     pub(super) inner: usize,
     /// Depth that the inner loop's part moves, against the outer one's, to be in the same face.
     pub(super) offset: f64,
+    /// Standard error of that, as far as the drawing's own tells.
+    pub(super) error: f64,
     /// Whether both loops are walked in the same sense, so that one part has to be turned over.
     pub(super) same_sense: bool,
     /// Whether two circles would be in one plane although they are drawn around one axis.
@@ -67,11 +69,15 @@ fn flat_or_coaxial(shapes: &Shapes) -> Vec<Link> {
             if coplanar.is_none() && coaxial.is_none() || inside(a, b) < INSIDE {
                 continue;
             }
+            let error = a
+                .depth_error(shapes.error)
+                .hypot(b.depth_error(shapes.error));
             let doubtful = match (coplanar, coaxial) {
-                (Some(p), Some(q)) => (p - q).abs() > shapes.tolerance,
+                (Some(p), Some(q)) => (p - q).abs() > shapes.slack(error),
                 _ => false,
             };
             let link = |kind, offset| Link {
+                error,
                 kind,
                 outer: i,
                 inner: j,
@@ -126,6 +132,7 @@ fn pierced(shapes: &Shapes, linked: &[bool], links: &mut Vec<Link>) {
                     outer: i,
                     inner: j,
                     offset,
+                    error: b.depth_error(shapes.error),
                     same_sense: a.area * b.area > 0.0,
                     doubtful: false,
                 };

@@ -14,13 +14,19 @@ const SAME: f64 = 2e-3;
 /// Error of a place in the drawing that is allowed, relative to its size.
 const NEAR: f64 = 1e-3;
 
+/// Places that have nothing to do with each other are about so far apart, relative to the size.
+const CHANCE: f64 = 0.25;
+
 /// Both in errors of the drawing's coordinates.
-const ERRORS: f64 = 3.0;
+const ERRORS: f64 = 2.0;
 
 /// Sine of the angle between normals up to which planes are parallel, in an exact drawing and at
 /// most.
 const PARALLEL: f64 = 5e-3;
 const MOST: f64 = 0.15;
+
+/// Share of a normal towards the viewer that counts at least.
+const STEEPEST: f64 = 0.05;
 
 /// Share of a normal towards the viewer below which a plane is seen from its edge.
 const FLAT: f64 = 0.01;
@@ -83,8 +89,8 @@ pub(super) struct Shapes {
     pub(super) camera: Camera,
     /// Size of the drawing.
     pub(super) size: f64,
-    /// Difference of depth up to which two are one.
-    pub(super) tolerance: f64,
+    /// Difference of depth up to which two are one, if the drawing is exact.
+    tolerance: f64,
     /// Distance in the drawing up to which two places are one.
     pub(super) near: f64,
     /// Standard error of drawn coordinates.
@@ -141,10 +147,21 @@ impl Shapes {
             own: pieces.axes.len(),
             camera: pieces.camera,
             size: drawing.size(),
-            tolerance: (SAME * drawing.size()).max(ERRORS * pieces.precision),
+            tolerance: SAME * drawing.size(),
             near: (NEAR * drawing.size()).max(ERRORS * pieces.precision),
             error: pieces.precision,
         }
+    }
+
+    /// Difference of depth up to which two are one, of which one is known to a standard error.
+    pub(super) fn slack(&self, error: f64) -> f64 {
+        self.tolerance.max(ERRORS * error)
+    }
+
+    /// How much two places that are one tell, beside an exact drawing: the larger the distance up to
+    /// which they are, the more are by chance.
+    pub(super) fn telling(&self) -> f64 {
+        (CHANCE * self.size / self.near).max(1.0).ln() / (CHANCE / NEAR).ln()
     }
 
     /// Distance from a drawn axis up to which a centre is on it.
@@ -228,6 +245,13 @@ impl Outline {
             [Some((_, z)), _] | [_, Some((_, z))] => z,
             _ => self.depths.iter().sum::<f64>() / n.max(1) as f64,
         }
+    }
+
+    /// Standard error of its depth if that of drawn coordinates is `error`: an error of a point is
+    /// one of its depth times the plane's slope, and the plane's is that of the mean of its corners.
+    pub(super) fn depth_error(&self, error: f64) -> f64 {
+        let steep = self.plane.map_or(1.0, |p| p.normal().z.abs().max(STEEPEST));
+        error / (steep * (self.corners.len().max(1) as f64).sqrt())
     }
 
     /// Whether a drawn point is inside.

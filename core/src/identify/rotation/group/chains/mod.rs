@@ -137,7 +137,9 @@ impl Chain {
             let (p, q) = (&shapes.loops[link.outer], &shapes.loops[link.inner]);
             let circles = shapes.parts[p.part].is_circle && shapes.parts[q.part].is_circle;
             // Either loop of a circle stands for the other.
-            if p.part == q.part || off.abs() > 2.0 * shapes.tolerance || circles && link.same_sense
+            if p.part == q.part
+                || off.abs() > 2.0 * shapes.slack(link.error)
+                || circles && link.same_sense
             {
                 continue;
             }
@@ -217,7 +219,8 @@ fn skipped(shapes: &Shapes, rings: &[Ring], a: usize, b: usize) -> usize {
             let part = shapes.loops[r.outline].part;
             let between = match (outer.along, inner.along, r.along) {
                 (Some(s), Some(t), Some(x)) => {
-                    x > s.min(t) - shapes.tolerance && x < s.max(t) + shapes.tolerance
+                    let slack = shapes.slack(shapes.error);
+                    x > s.min(t) - slack && x < s.max(t) + slack
                 }
                 _ => true,
             };
