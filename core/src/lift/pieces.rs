@@ -14,9 +14,14 @@ use super::{Camera, LiftError};
 use crate::drawing::Drawing;
 use crate::identify::Face;
 
+/// Sine of the angle below which neighbouring planes are one.
+const BENT: f64 = 0.02;
+
 /// A drawing with all readings of its directions; one by hand is made straight by each.
 pub(crate) struct Readings<'a> {
     all: Vec<(Cow<'a, Drawing>, Directions)>,
+    /// Whether the drawing is by hand.
+    by_hand: bool,
 }
 
 impl<'a> Readings<'a> {
@@ -26,14 +31,21 @@ impl<'a> Readings<'a> {
             .into_iter()
             .map(|s| (Cow::Owned(s.drawing), s.directions))
             .collect();
-        if all.is_empty() {
+        let by_hand = !all.is_empty();
+        if !by_hand {
             let candidates = Directions::candidates(drawing).unwrap_or_default();
             all = candidates
                 .into_iter()
                 .map(|d| (Cow::Borrowed(drawing), d))
                 .collect();
         }
-        Self { all }
+        Self { all, by_hand }
+    }
+
+    /// The drawing made straight by the likeliest reading, if it is by hand.
+    pub(crate) fn straight(&self) -> Option<&Drawing> {
+        let first = self.all.first().filter(|_| self.by_hand);
+        first.map(|(drawing, _)| drawing.as_ref())
     }
 }
 
@@ -48,6 +60,8 @@ pub(crate) struct Pieces {
     pub(crate) camera: Camera,
     /// Standard error of the drawing's coordinates, drawing units.
     pub(crate) precision: f64,
+    pub(crate) dropped: usize,
+    pub(crate) which: usize,
 }
 
 /// A plane of the heights `h = -(a x + b y + c)`; see [`Camera`].
@@ -87,16 +101,22 @@ impl Pieces {
     ) -> Result<(&'a Drawing, Self), LiftError> {
         let mut best: Option<(usize, &Drawing, Self)> = None;
         let mut refusal = None;
-        for (drawing, reading) in &readings.all {
+        for (which, (drawing, reading)) in readings.all.iter().enumerate() {
             if best.as_ref().is_some_and(|b| b.0 == 0) {
                 break;
             }
             let sheet = Sheet::new(drawing, faces, reading);
             match solve::solve_parts(&sheet) {
                 Ok(solved) => {
-                    let dropped = solved.dropped();
+                    let mut dropped = solved.dropped();
+                    if readings.by_hand {
+                        dropped += flat(&sheet, &solved);
+                    }
                     if best.as_ref().is_none_or(|b| 2 * dropped < b.0) {
-                        best = Some((dropped, drawing, Self::of(&sheet, solved)));
+                        let mut own = Self::of(&sheet, solved);
+                        own.dropped = dropped;
+                        own.which = which;
+                        best = Some((dropped, drawing, own));
                     }
                 }
                 Err(error) => refusal = Some(error),
@@ -117,6 +137,8 @@ impl Pieces {
             circles: sheet.circles.clone(),
             camera: *sheet.camera(),
             precision: sheet.directions.precision,
+            dropped: 0,
+            which: 0,
         }
     }
 
@@ -141,4 +163,22 @@ impl Pieces {
             camera: self.camera,
         })
     }
+}
+
+/// Number of edges between planes that are one: what is read wrongly is often flat.
+fn flat(sheet: &Sheet<'_>, solved: &Solved) -> usize {
+    let normal = |f: usize| {
+        let [a, b, c] = solved.plane(f)?;
+        let normal = sheet.camera().normal([a, b, c], sheet.middles[f]);
+        normal.try_normalize()
+    };
+    let edges = 0..sheet.drawing.edges.len();
+    let is_flat = |e: &usize| match *sheet.neighbours(*e) {
+        [f, g] => match [f, g].map(normal) {
+            [Some(a), Some(b)] => a.cross(b).length() < BENT,
+            _ => false,
+        },
+        _ => false,
+    };
+    edges.filter(is_flat).count()
 }

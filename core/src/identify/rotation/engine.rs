@@ -59,6 +59,8 @@ impl Engine for RotationEngine {
     }
 
     fn identify(&self, drawing: &Drawing, progress: Progress<'_>) -> Result<Identification> {
+        let directions = Readings::new(drawing);
+        let drawing = directions.straight().unwrap_or(drawing);
         let graph = Graph::new(drawing);
         check_degrees(&graph)?;
         progress.report(Stage::Identify, 0.0)?;
@@ -73,7 +75,6 @@ impl Engine for RotationEngine {
         let doubts = Doubts::new(&field, &system);
         let readings = variants(&field, system, &doubts);
         let frame = (readings.len() > 1).then(|| Frame::new(drawing));
-        let directions = Readings::new(drawing);
         let reader = Reader {
             drawing,
             readings: &directions,

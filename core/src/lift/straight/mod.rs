@@ -7,18 +7,13 @@
 //! An edge that seemed to follow an axis and pulls its ends too far away is let go.
 
 mod circles;
+mod doubts;
 mod redraw;
 mod solve;
-
-use glam::DVec2;
 
 use super::directions::{Directions, is_exact, recognised};
 use crate::drawing::{Drawing, Projection};
 use solve::Bundle;
-
-/// Errors beyond which an edge is long, and within which it is along an axis for sure.
-const LONG: f64 = 30.0;
-const CLOSE: f64 = 2.0;
 
 /// A drawing as it is drawn or made straight, with one reading of its directions.
 #[derive(Debug, Clone)]
@@ -36,26 +31,12 @@ pub(crate) fn straightened(drawing: &Drawing) -> Vec<Straight> {
     let readings = Directions::coarse(drawing).into_iter();
     readings
         .flat_map(|reading| {
-            let strict = sure(drawing, &reading);
-            [reading, strict]
+            let reading = doubts::without_aside(drawing, reading);
+            let long = doubts::long(drawing, &reading);
+            [reading, long]
         })
         .filter_map(|reading| straighten(drawing, reading))
         .collect()
-}
-
-/// The reading with those edges only that are long enough to be told from others.
-fn sure(drawing: &Drawing, reading: &Directions) -> Directions {
-    let mut sure = reading.clone();
-    for axis in &mut sure.axes {
-        let along = axis.direction.truncate().normalize_or(DVec2::X);
-        axis.edges.retain(|&e| {
-            let [u, v] = drawing.edges[e].v.map(|v| drawing.vertices[v]);
-            let errors = std::f64::consts::SQRT_2 * reading.precision;
-            let off = (v - u).perp_dot(along) / errors;
-            u.distance(v) > LONG * errors && off.abs() < CLOSE
-        });
-    }
-    sure
 }
 
 /// The drawing made straight by one reading; `None` if it cannot be solved.

@@ -22,6 +22,9 @@ const POINTS: usize = 7;
 /// Newton steps: edges that follow axes are linear, circles and free directions are not.
 const STEPS: usize = 4;
 
+/// What the reading says of the error counts as so many conditions.
+const PRIOR: f64 = 4.0;
+
 /// Errors by which a vertex may be moved.
 const TORN: f64 = 4.0;
 
@@ -190,8 +193,13 @@ impl<'a> Bundle<'a> {
             .zip(drawn)
             .map(|(p, q)| p.distance_squared(*q))
             .sum();
-        let told = self.conditions.len().min(2 * drawn.len()).max(1);
-        let error = (squares / told as f64).sqrt();
+        // Circles and clusters take as many conditions as they have numbers.
+        let free = 3 * self.circles.len() + self.clusters.len();
+        let told = self.conditions.len().saturating_sub(free) as f64;
+        let prior = self.directions.precision;
+        let error = ((squares + PRIOR * prior * prior) / (told + PRIOR))
+            .sqrt()
+            .max(prior);
         error
             .is_finite()
             .then_some((Fitted { vertices, error }, forces))
