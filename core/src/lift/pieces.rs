@@ -9,7 +9,7 @@ use super::circle::DrawnCircle;
 use super::directions::Directions;
 use super::sheet::Sheet;
 use super::solve::{self, Solved};
-use super::straight::straightened;
+use super::straight::{ends, straightened};
 use super::{Camera, LiftError};
 use crate::drawing::Drawing;
 use crate::identify::Face;
@@ -60,8 +60,6 @@ pub(crate) struct Pieces {
     pub(crate) camera: Camera,
     /// Standard error of the drawing's coordinates, drawing units.
     pub(crate) precision: f64,
-    pub(crate) dropped: usize,
-    pub(crate) which: usize,
 }
 
 /// A plane of the heights `h = -(a x + b y + c)`; see [`Camera`].
@@ -101,22 +99,24 @@ impl Pieces {
     ) -> Result<(&'a Drawing, Self), LiftError> {
         let mut best: Option<(usize, &Drawing, Self)> = None;
         let mut refusal = None;
-        for (which, (drawing, reading)) in readings.all.iter().enumerate() {
+        for (drawing, reading) in &readings.all {
             if best.as_ref().is_some_and(|b| b.0 == 0) {
                 break;
             }
-            let sheet = Sheet::new(drawing, faces, reading);
+            let mut sheet = Sheet::new(drawing, faces, reading);
+            let trusted = readings.by_hand.then(|| ends::trusted(&sheet));
+            if let Some(trusted) = &trusted {
+                sheet = Sheet::new(drawing, faces, trusted);
+            }
             match solve::solve_parts(&sheet) {
                 Ok(solved) => {
-                    let mut dropped = solved.dropped();
+                    let mut wrong = solved.dropped();
                     if readings.by_hand {
-                        dropped += flat(&sheet, &solved);
+                        wrong += flat(&sheet, &solved);
                     }
-                    if best.as_ref().is_none_or(|b| 2 * dropped < b.0) {
-                        let mut own = Self::of(&sheet, solved);
-                        own.dropped = dropped;
-                        own.which = which;
-                        best = Some((dropped, drawing, own));
+                    if best.as_ref().is_none_or(|b| 2 * wrong < b.0) {
+                        let own = Self::of(&sheet, solved);
+                        best = Some((wrong, drawing, own));
                     }
                 }
                 Err(error) => refusal = Some(error),
@@ -137,8 +137,6 @@ impl Pieces {
             circles: sheet.circles.clone(),
             camera: *sheet.camera(),
             precision: sheet.directions.precision,
-            dropped: 0,
-            which: 0,
         }
     }
 

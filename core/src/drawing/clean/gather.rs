@@ -7,8 +7,8 @@
 
 use glam::DVec2;
 
-use super::super::Curve2;
 use super::super::grid::PointGrid;
+use super::super::{Curve2, FindingKind};
 use super::net::Net;
 use super::piece::Piece;
 
@@ -87,6 +87,14 @@ pub(super) fn gather(net: &mut Net<'_>, reach: f64, size: f64) -> Option<f64> {
     }
     net.vertices = sums.iter().map(|(sum, n)| *sum / *n).collect();
     net.follow_vertices();
+    let mut joined: Vec<usize> = ends.iter().map(|e| e.piece).collect();
+    joined.dedup();
+    let sources = joined.iter().flat_map(|&p| net.pieces[p].sources.clone());
+    let sources: Vec<usize> = sources.collect();
+    let message = format!(
+        "ends up to {limit:.1e} apart were joined, as most miss each other; draw them to one point"
+    );
+    net.note(FindingKind::Snapped, message, sources, Vec::new());
     Some(limit)
 }
 

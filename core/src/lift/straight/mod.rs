@@ -8,8 +8,11 @@
 
 mod circles;
 mod doubts;
+pub(super) mod ends;
 mod redraw;
 mod solve;
+#[cfg(test)]
+mod tests;
 
 use super::directions::{Directions, is_exact, recognised};
 use crate::drawing::{Drawing, Projection};

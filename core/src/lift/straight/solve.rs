@@ -1,5 +1,7 @@
 //! The least-squares problem: vertices stay where they are drawn as far as what is straight allows.
 
+use std::f64::consts::SQRT_2;
+
 use glam::DVec2;
 
 use super::circles::{Circle, circles, coaxial};
@@ -22,8 +24,14 @@ const POINTS: usize = 7;
 /// Newton steps: edges that follow axes are linear, circles and free directions are not.
 const STEPS: usize = 4;
 
-/// What the reading says of the error counts as so many conditions.
+/// What the reading says of the error counts as so many edges.
 const PRIOR: f64 = 4.0;
+
+/// The error of all is at most so many times that of most.
+const WILD: f64 = 4.0;
+
+/// Half of all normal errors are smaller than this many standard errors.
+const QUARTILE: f64 = 0.6745;
 
 /// Errors by which a vertex may be moved.
 const TORN: f64 = 4.0;
@@ -58,7 +66,9 @@ pub(super) struct Bundle<'a> {
 /// A solution.
 pub(super) struct Fitted {
     pub(super) vertices: Vec<DVec2>,
-    /// Standard error of the drawn coordinates.
+    /// Standard error of most drawn coordinates.
+    pub(super) typical: f64,
+    /// That of all, with those that the conditions do not explain.
     pub(super) error: f64,
 }
 
@@ -120,7 +130,7 @@ impl<'a> Bundle<'a> {
         let start = (self.circles.clone(), self.clusters.clone());
         for _ in 0..ROUNDS {
             let (fitted, forces) = self.fit()?;
-            let torn = TORN * fitted.error.max(self.directions.precision);
+            let torn = TORN * fitted.typical;
             let drawn = &self.drawing.vertices;
             let is_torn = |v: usize| fitted.vertices[v].distance(drawn[v]) > torn;
             let mut pulling: Vec<(f64, usize)> = forces
@@ -188,21 +198,53 @@ impl<'a> Bundle<'a> {
                 *angle += x[2 * n + 3 * self.circles.len() + i].clamp(-0.2, 0.2);
             }
         }
-        let squares: f64 = vertices
+        let finite = vertices.iter().all(|p| p.is_finite());
+        finite.then(|| {
+            let typical = self.typical_error();
+            let squares = vertices
+                .iter()
+                .zip(drawn)
+                .map(|(p, q)| p.distance_squared(*q));
+            // Circles and clusters take as many conditions as they have numbers.
+            let free = 3 * self.circles.len() + self.clusters.len();
+            let told = self.conditions.len().saturating_sub(free) as f64;
+            let own = (squares.sum::<f64>() / (told + PRIOR)).sqrt();
+            let error = own.clamp(typical, WILD * typical);
+            (
+                Fitted {
+                    vertices,
+                    typical,
+                    error,
+                },
+                forces,
+            )
+        })
+    }
+
+    /// Standard error of most drawn coordinates, by the median of how far edges along axes are drawn
+    /// aside, beside what the reading says.
+    fn typical_error(&self) -> f64 {
+        let mut offs: Vec<f64> = self
+            .conditions
             .iter()
-            .zip(drawn)
-            .map(|(p, q)| p.distance_squared(*q))
-            .sum();
-        // Circles and clusters take as many conditions as they have numbers.
-        let free = 3 * self.circles.len() + self.clusters.len();
-        let told = self.conditions.len().saturating_sub(free) as f64;
+            .filter_map(|c| match *c {
+                Condition::Along { edge, axis } => {
+                    let [u, v] = self.drawing.edges[edge].v.map(|v| self.drawing.vertices[v]);
+                    let along = self.directions.axes[axis].direction.truncate().normalize();
+                    Some((v - u).perp_dot(along).abs())
+                }
+                _ => None,
+            })
+            .collect();
+        offs.sort_by(f64::total_cmp);
+        let count = offs.len() as f64;
+        let median = offs
+            .get(offs.len() / 2)
+            .map_or(0.0, |m| m / (QUARTILE * SQRT_2));
         let prior = self.directions.precision;
-        let error = ((squares + PRIOR * prior * prior) / (told + PRIOR))
+        ((count * median * median + PRIOR * prior * prior) / (count + PRIOR))
             .sqrt()
-            .max(prior);
-        error
-            .is_finite()
-            .then_some((Fitted { vertices, error }, forces))
+            .max(prior)
     }
 
     /// Rows about the next step, those of the conditions first.

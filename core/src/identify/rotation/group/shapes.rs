@@ -18,7 +18,7 @@ const NEAR: f64 = 1e-3;
 const CHANCE: f64 = 0.25;
 
 /// Both in errors of the drawing's coordinates.
-const ERRORS: f64 = 2.5;
+const ERRORS: f64 = 3.0;
 
 /// Sine of the angle between normals up to which planes are parallel, in an exact drawing and at
 /// most.
