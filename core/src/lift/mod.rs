@@ -28,6 +28,7 @@ mod shape;
 mod sheet;
 mod solve;
 mod split;
+mod straight;
 mod surfaces;
 pub mod system;
 #[cfg(test)]
@@ -43,7 +44,7 @@ pub(crate) use circle::{circle_fit, circle_through};
 pub use error::LiftError;
 pub use metric::depth_error;
 pub use model::{Conflict, Lift, LiftMethod, LiftOptions, Surface};
-pub(crate) use pieces::{Pieces, Tilt};
+pub(crate) use pieces::{Pieces, Readings, Tilt};
 pub use regular::{Regular, Snap};
 pub use truth::true_lift;
 

@@ -1,15 +1,53 @@
 //! Lifting loops before they are grouped into faces: parts of the drawing that share no vertex each
 //! keep a depth of their own.
 
+use std::borrow::Cow;
+
 use glam::{DVec2, DVec3};
 
 use super::circle::DrawnCircle;
 use super::directions::Directions;
 use super::sheet::Sheet;
 use super::solve::{self, Solved};
+use super::straight::{ends, straightened};
 use super::{Camera, LiftError};
 use crate::drawing::Drawing;
 use crate::identify::Face;
+
+/// Sine of the angle below which neighbouring planes are one.
+const BENT: f64 = 0.02;
+
+/// A drawing with all readings of its directions; one by hand is made straight by each.
+pub(crate) struct Readings<'a> {
+    all: Vec<(Cow<'a, Drawing>, Directions)>,
+    /// Whether the drawing is by hand.
+    by_hand: bool,
+}
+
+impl<'a> Readings<'a> {
+    /// The readings of a drawing, none if nothing tells directions.
+    pub(crate) fn new(drawing: &'a Drawing) -> Self {
+        let mut all: Vec<(Cow<'a, Drawing>, Directions)> = straightened(drawing)
+            .into_iter()
+            .map(|s| (Cow::Owned(s.drawing), s.directions))
+            .collect();
+        let by_hand = !all.is_empty();
+        if !by_hand {
+            let candidates = Directions::candidates(drawing).unwrap_or_default();
+            all = candidates
+                .into_iter()
+                .map(|d| (Cow::Borrowed(drawing), d))
+                .collect();
+        }
+        Self { all, by_hand }
+    }
+
+    /// The drawing made straight by the likeliest reading, if it is by hand.
+    pub(crate) fn straight(&self) -> Option<&Drawing> {
+        let first = self.all.first().filter(|_| self.by_hand);
+        first.map(|(drawing, _)| drawing.as_ref())
+    }
+}
 
 /// A lifted drawing whose parts may still move in depth against each other.
 pub(crate) struct Pieces {
@@ -20,6 +58,8 @@ pub(crate) struct Pieces {
     pub(crate) axes: Vec<DVec3>,
     circles: Vec<Option<(usize, DrawnCircle)>>,
     pub(crate) camera: Camera,
+    /// Standard error of the drawing's coordinates, drawing units.
+    pub(crate) precision: f64,
 }
 
 /// A plane of the heights `h = -(a x + b y + c)`; see [`Camera`].
@@ -48,31 +88,42 @@ impl Tilt {
 }
 
 impl Pieces {
-    /// Lifts a drawing with the given faces, of all readings of its directions the one that
-    /// contradicts the faces least.
+    /// Lifts a drawing with the given faces, of all readings of its directions by the one that
+    /// contradicts the faces least; returns it with the drawing that it lifts.
     ///
     /// # Errors
     /// As [`lift`](super::lift()), but depths may stay open.
-    pub(crate) fn new(drawing: &Drawing, faces: &[Face]) -> Result<Self, LiftError> {
-        let mut best: Option<(usize, Self)> = None;
+    pub(crate) fn new<'a>(
+        readings: &'a Readings<'_>,
+        faces: &[Face],
+    ) -> Result<(&'a Drawing, Self), LiftError> {
+        let mut best: Option<(usize, &Drawing, Self)> = None;
         let mut refusal = None;
-        for reading in Directions::candidates(drawing)? {
+        for (drawing, reading) in &readings.all {
             if best.as_ref().is_some_and(|b| b.0 == 0) {
                 break;
             }
-            let sheet = Sheet::new(drawing, faces, &reading);
+            let mut sheet = Sheet::new(drawing, faces, reading);
+            let trusted = readings.by_hand.then(|| ends::trusted(&sheet));
+            if let Some(trusted) = &trusted {
+                sheet = Sheet::new(drawing, faces, trusted);
+            }
             match solve::solve_parts(&sheet) {
                 Ok(solved) => {
-                    let dropped = solved.dropped();
-                    if best.as_ref().is_none_or(|b| 2 * dropped < b.0) {
-                        best = Some((dropped, Self::of(&sheet, solved)));
+                    let mut wrong = solved.dropped();
+                    if readings.by_hand {
+                        wrong += flat(&sheet, &solved);
+                    }
+                    if best.as_ref().is_none_or(|b| 2 * wrong < b.0) {
+                        let own = Self::of(&sheet, solved);
+                        best = Some((wrong, drawing, own));
                     }
                 }
                 Err(error) => refusal = Some(error),
             }
         }
         match (best, refusal) {
-            (Some((_, pieces)), _) => Ok(pieces),
+            (Some((_, drawing, pieces)), _) => Ok((drawing, pieces)),
             (None, Some(error)) => Err(error),
             (None, None) => Err(LiftError::NoDirections("no reading".into())),
         }
@@ -85,6 +136,7 @@ impl Pieces {
             axes: sheet.directions.axes.iter().map(|a| a.direction).collect(),
             circles: sheet.circles.clone(),
             camera: *sheet.camera(),
+            precision: sheet.directions.precision,
         }
     }
 
@@ -109,4 +161,22 @@ impl Pieces {
             camera: self.camera,
         })
     }
+}
+
+/// Number of edges between planes that are one: what is read wrongly is often flat.
+fn flat(sheet: &Sheet<'_>, solved: &Solved) -> usize {
+    let normal = |f: usize| {
+        let [a, b, c] = solved.plane(f)?;
+        let normal = sheet.camera().normal([a, b, c], sheet.middles[f]);
+        normal.try_normalize()
+    };
+    let edges = 0..sheet.drawing.edges.len();
+    let is_flat = |e: &usize| match *sheet.neighbours(*e) {
+        [f, g] => match [f, g].map(normal) {
+            [Some(a), Some(b)] => a.cross(b).length() < BENT,
+            _ => false,
+        },
+        _ => false,
+    };
+    edges.filter(is_flat).count()
 }

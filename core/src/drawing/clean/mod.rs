@@ -12,6 +12,7 @@
 //! the other one too.
 
 mod duplicate;
+mod gather;
 mod join;
 mod net;
 mod piece;
@@ -109,7 +110,7 @@ pub(super) fn clean_raw(
     if net.pieces.is_empty() {
         return Err(DrawingError::ZeroLength { edge: 1 });
     }
-    let noise = net.tidy(reach, exact)?;
+    let noise = net.tidy(reach, exact, size)?;
     net.drop_unused_vertices();
     let drawing = Drawing {
         id: input.id,
@@ -208,16 +209,21 @@ impl Net<'_> {
     }
 
     /// The clean-up itself. Returns the distance within which the input turned out to be exact.
-    fn tidy(&mut self, reach: f64, exact: f64) -> Result<f64, DrawingError> {
-        let noise = snap::estimate_noise(self, exact, reach);
-        // A vertex of many ends spreads wider than its nearest pairs do.
-        let spread = if noise > exact { 2.0 * noise } else { exact };
-        snap::make_vertices(self, spread.min(reach));
+    fn tidy(&mut self, reach: f64, exact: f64, size: f64) -> Result<f64, DrawingError> {
+        let gathered = gather::gather(self, reach, size);
+        let wide = gathered.unwrap_or(reach);
+        let mut noise = wide;
+        if gathered.is_none() {
+            noise = snap::estimate_noise(self, exact, reach);
+            // A vertex of many ends spreads wider than its nearest pairs do.
+            let spread = if noise > exact { 2.0 * noise } else { exact };
+            snap::make_vertices(self, spread.min(reach));
+            self.unite(noise, exact, reach)?;
+        }
+        let moved = snap::close_gaps(self, wide);
+        let noise = noise.max(moved).min(wide);
         self.unite(noise, exact, reach)?;
-        let moved = snap::close_gaps(self, reach);
-        let noise = noise.max(moved).min(reach);
-        self.unite(noise, exact, reach)?;
-        split::split_at_ends(self, reach, exact)?;
+        split::split_at_ends(self, wide, exact)?;
         self.unite(noise, exact, reach)?;
         Ok(noise)
     }

@@ -186,6 +186,47 @@ fn gaps_are_closed_up_to_the_tolerance_and_no_farther() {
     assert!(kinds(&open).contains(&(Severity::Error, FindingKind::Dangling, vec![1])));
 }
 
+/// A cube's wireframe, every end off by up to `off` to a side of its own.
+fn cube_by_hand(off: f64) -> Vec<Vec<DVec2>> {
+    let corner = |i: usize| {
+        let [x, y, z] = [0, 1, 2].map(|k| f64::from((i >> k) as u32 & 1));
+        DVec2::new(0.9 * x - 0.4 * y, 0.3 * x + 0.5 * y + 0.8 * z)
+    };
+    let mut turn = 0.0;
+    let mut by = || {
+        turn += 2.4;
+        DVec2::from_angle(turn) * off
+    };
+    let pairs = (0..8).flat_map(|i| (0..3).map(move |k| (i, i | 1 << k)));
+    pairs
+        .filter(|(i, j)| i != j)
+        .map(|(i, j)| vec![corner(i) + by(), corner(j) + by()])
+        .collect()
+}
+
+#[test]
+fn ends_by_hand_are_gathered_into_vertices() {
+    for off in [1e-3, 2.5e-3] {
+        let c = cleaned(&cube_by_hand(off));
+        assert_eq!((c.drawing.vertices.len(), c.drawing.edges.len()), (8, 12));
+        assert!(!c.report.has_errors(), "{:?}", c.report);
+        assert!(c.sources.iter().all(|s| s.len() == 1));
+        assert!(kinds(&c).iter().any(|k| k.1 == FindingKind::Snapped));
+    }
+    // So far apart they are no ends of one edge.
+    assert!(cleaned(&cube_by_hand(2e-2)).report.has_errors());
+}
+
+#[test]
+fn a_short_edge_by_hand_stays_an_edge() {
+    let mut edges = cube_by_hand(1.5e-3);
+    let tip = edges[0][0];
+    edges[0][0] = tip + DVec2::new(0.004, -0.007);
+    edges.push(line(&[(tip.x, tip.y), (tip.x + 0.005, tip.y - 0.008)]));
+    let c = cleaned(&edges);
+    assert_eq!((c.drawing.vertices.len(), c.drawing.edges.len()), (9, 13));
+}
+
 #[test]
 fn true_corners_of_two_edges_are_kept() {
     let c = cleaned(&[

@@ -6,6 +6,7 @@ use super::variants::variants;
 use super::{Field, HandScorer, TripleScorer, Triples, model};
 use crate::drawing::{Drawing, Graph};
 use crate::identify::{Engine, EngineKind, Identification, IdentifyError};
+use crate::lift::Readings;
 use crate::{Progress, Result, Stage};
 
 /// Most edges at one vertex that the engine handles.
@@ -58,6 +59,8 @@ impl Engine for RotationEngine {
     }
 
     fn identify(&self, drawing: &Drawing, progress: Progress<'_>) -> Result<Identification> {
+        let directions = Readings::new(drawing);
+        let drawing = directions.straight().unwrap_or(drawing);
         let graph = Graph::new(drawing);
         check_degrees(&graph)?;
         progress.report(Stage::Identify, 0.0)?;
@@ -74,6 +77,7 @@ impl Engine for RotationEngine {
         let frame = (readings.len() > 1).then(|| Frame::new(drawing));
         let reader = Reader {
             drawing,
+            readings: &directions,
             field: &field,
             kinds: scores.kinds.as_deref(),
             frame: frame.as_ref(),

@@ -9,6 +9,7 @@ use super::variants::{Variant, plausibility};
 use super::{Field, LoopKinds, RotationSystem};
 use crate::drawing::{CoEdge, Drawing, Graph, SurfaceKind};
 use crate::identify::{Candidate, Evidence, Face};
+use crate::lift::Readings;
 
 /// Log-odds against a reading for each of its planes that no plane of the axes holds.
 const BENT: f64 = 2.0;
@@ -16,6 +17,8 @@ const BENT: f64 = 2.0;
 /// What readings of one drawing share.
 pub(super) struct Reader<'a> {
     pub(super) drawing: &'a Drawing,
+    /// Its directions.
+    pub(super) readings: &'a Readings<'a>,
     pub(super) field: &'a Field<'a>,
     pub(super) kinds: Option<&'a dyn LoopKinds>,
     /// The drawing's axes, if readings have rivals that what lifts decides between.
@@ -94,7 +97,7 @@ impl Reader<'_> {
                 }
             })
             .collect();
-        let groupings = group(self.drawing, graph, &faces);
+        let groupings = group(self.readings, graph, &faces);
         let mut candidates: Vec<Candidate> = groupings
             .iter()
             .map(|grouping| Candidate {

@@ -43,7 +43,7 @@ pub(super) fn fit(shapes: &Shapes, part: usize, shift: f64, placed: &[Option<Pla
             None => {}
         }
     }
-    let slack = DVec2::splat(shapes.tolerance);
+    let slack = DVec2::splat(shapes.slack(shapes.error));
     let (low, high) = (own.low + slack, own.high - slack);
     let (mut seen, mut within) = (0usize, 0usize);
     'all: for (other, place) in placed.iter().enumerate() {
@@ -97,7 +97,7 @@ fn in_part(shapes: &Shapes, part: usize, p: DVec3) -> Option<bool> {
         let outline = &shapes.loops[i];
         if outline.contains(at) {
             let above = outline.depth(at) - p.z;
-            if above.abs() < shapes.tolerance {
+            if above.abs() < shapes.slack(outline.depth_error(shapes.error)) {
                 return None;
             }
             inside ^= above > 0.0;

@@ -111,8 +111,10 @@ impl Joiner<'_> {
         let mut start = 0;
         while start < moves.len() {
             let (turned, first, _) = moves[start];
+            let slack = |m: &(bool, f64, usize)| self.shapes.slack(self.links[m.2].error);
+            let widest = slack(&moves[start]);
             let same =
-                |m: &(bool, f64, usize)| m.0 == turned && m.1 - first < 2.0 * self.shapes.tolerance;
+                |m: &(bool, f64, usize)| m.0 == turned && m.1 - first < 2.0 * widest.max(slack(m));
             let end = start + moves[start..].iter().take_while(|m| same(m)).count();
             let cluster = &moves[start..end];
             let shift = cluster.iter().map(|m| m.1).sum::<f64>() / cluster.len() as f64;
@@ -139,7 +141,9 @@ impl Joiner<'_> {
             let ends = kept.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), m| {
                 (low.min(m.1), high.max(m.1))
             });
-            let row = self.row(part, place, &list, (ends.1 - ends.0).max(0.0), state);
+            let slack = cluster.iter().map(slack).fold(0.0, f64::max);
+            let spread = (ends.1 - ends.0).max(0.0) / slack;
+            let row = self.row(part, place, &list, spread, state);
             joins.push(Join {
                 place,
                 links: list,
@@ -208,7 +212,7 @@ impl Joiner<'_> {
         let loops = &self.shapes.loops;
         let width = |l: &Link| (loops[l.inner].area / loops[l.outer].area).abs().sqrt();
         let of_kind = |l: &Link, kind| if l.kind == kind { width(l) } else { 0.0 };
-        set(Feature::Spread, spread / self.shapes.tolerance);
+        set(Feature::Spread, spread);
         set(Feature::Area, mean(&|l| of_kind(l, LinkKind::Coplanar)));
         set(Feature::Narrow, mean(&|l| of_kind(l, LinkKind::Coaxial)));
         set(Feature::Skips, mean(&|l| share(self.skips(l))));

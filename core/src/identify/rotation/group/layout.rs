@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::body::Place;
 use super::joins::{Joiner, State};
-use super::links::{Link, PARALLEL};
+use super::links::Link;
 
 impl Joiner<'_> {
     pub(super) fn clearance(&self, link: &Link) -> f64 {
@@ -53,7 +53,7 @@ impl Joiner<'_> {
     }
 
     fn same(&self, a: f64, b: f64) -> bool {
-        (a - b).abs() < 1e-3 * self.shapes.size
+        (a - b).abs() < self.shapes.near
     }
 
     /// Distance between the centres of two circles in their plane.
@@ -71,7 +71,7 @@ impl Joiner<'_> {
         if let Some(d) = self.eccentricity(link.outer, link.inner)
             && self.same(d, 0.0)
         {
-            return 2.0;
+            return 2.0 * self.shapes.telling();
         }
         let (Some((a, b)), Some((c, d))) = (self.extent(link.outer), self.extent(link.inner))
         else {
@@ -79,7 +79,7 @@ impl Joiner<'_> {
         };
         let (p, q) = (a + b, c + d);
         let hits = [self.same(p.x, q.x), self.same(p.y, q.y)];
-        hits.iter().filter(|h| **h).count() as f64
+        self.shapes.telling() * hits.iter().filter(|h| **h).count() as f64
     }
 
     pub(super) fn aligned(&self, link: &Link, state: &State) -> f64 {
@@ -92,7 +92,7 @@ impl Joiner<'_> {
                         .is_some_and(|e| self.same(d, e))
             })
         {
-            return 2.0;
+            return 2.0 * self.shapes.telling();
         }
         let Some((a, b)) = self.extent(link.inner) else {
             return 0.0;
@@ -108,7 +108,7 @@ impl Joiner<'_> {
                     || self.same(a[k] + b[k], c[k] + d[k]);
             }
         }
-        hits.iter().filter(|h| **h).count() as f64
+        self.shapes.telling() * hits.iter().filter(|h| **h).count() as f64
     }
 
     /// Share of a part's planes parallel to the one it is linked in, but for those linked, that are
@@ -121,8 +121,7 @@ impl Joiner<'_> {
                 let link = &self.links[l];
                 link.outer == i || link.inner == i
             });
-            let Some(p) = loops[i].plane else { continue };
-            if linked {
+            if linked || loops[i].plane.is_none() {
                 continue;
             }
             count += 1;
@@ -130,10 +129,9 @@ impl Joiner<'_> {
             hits += usize::from(loops.iter().any(|b| {
                 b.part != part
                     && state.placed[b.part].is_some_and(|base| {
-                        b.plane.is_some_and(|q| {
-                            p.normal().cross(q.normal()).length() < PARALLEL
-                                && (p.level(at) + place.shift - q.level(at) - base.shift).abs()
-                                    < self.shapes.tolerance
+                        self.shapes.parallel(&loops[i], b).is_some_and(|(p, q)| {
+                            (p.level(at) + place.shift - q.level(at) - base.shift).abs()
+                                < self.shapes.slack(b.depth_error(self.shapes.error))
                         })
                     })
             }));

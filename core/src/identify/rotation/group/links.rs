@@ -4,16 +4,9 @@ use glam::DVec2;
 
 use super::shapes::{Outline, Shapes};
 use crate::drawing::SurfaceKind;
-use crate::lift::Tilt;
-
-/// Sine of the angle between normals up to which planes are parallel.
-pub(super) const PARALLEL: f64 = 5e-3;
 
 /// Share of the inner loop's points that must be drawn inside the outer one.
 const INSIDE: f64 = 0.9;
-
-/// Distance from a drawn axis, relative to the drawing's size, up to which a centre is on it.
-const ON_AXIS: f64 = 2e-3;
 
 /// Points of a loop that are looked at.
 const POINTS: usize = 32;
@@ -37,6 +30,8 @@ pub(super) struct Link {
     pub(super) inner: usize,
     /// Depth that the inner loop's part moves, against the outer one's, to be in the same face.
     pub(super) offset: f64,
+    /// Standard error of that, as far as the drawing's own tells.
+    pub(super) error: f64,
     /// Whether both loops are walked in the same sense, so that one part has to be turned over.
     pub(super) same_sense: bool,
     /// Whether two circles would be in one plane although they are drawn around one axis.
@@ -59,14 +54,14 @@ pub(super) fn links(shapes: &Shapes) -> Vec<Link> {
 
 fn flat_or_coaxial(shapes: &Shapes) -> Vec<Link> {
     let mut links = Vec::new();
-    let slack = DVec2::splat(1e-6 * shapes.size);
+    let slack = DVec2::splat((1e-6 * shapes.size).max(shapes.error));
     for (i, a) in shapes.loops.iter().enumerate() {
         for (j, b) in shapes.loops.iter().enumerate() {
             let apart = b.low.cmplt(a.low - slack).any() || b.high.cmpgt(a.high + slack).any();
             if i == j || apart || b.area.abs() >= a.area.abs() {
                 continue;
             }
-            let coplanar = parallel(a, b).map(|(p, q)| {
+            let coplanar = shapes.parallel(a, b).map(|(p, q)| {
                 let middle = (b.low + b.high) / 2.0;
                 p.level(middle) - q.level(middle)
             });
@@ -74,11 +69,15 @@ fn flat_or_coaxial(shapes: &Shapes) -> Vec<Link> {
             if coplanar.is_none() && coaxial.is_none() || inside(a, b) < INSIDE {
                 continue;
             }
+            let error = a
+                .depth_error(shapes.error)
+                .hypot(b.depth_error(shapes.error));
             let doubtful = match (coplanar, coaxial) {
-                (Some(p), Some(q)) => (p - q).abs() > shapes.tolerance,
+                (Some(p), Some(q)) => (p - q).abs() > shapes.slack(error),
                 _ => false,
             };
             let link = |kind, offset| Link {
+                error,
                 kind,
                 outer: i,
                 inner: j,
@@ -133,6 +132,7 @@ fn pierced(shapes: &Shapes, linked: &[bool], links: &mut Vec<Link>) {
                     outer: i,
                     inner: j,
                     offset,
+                    error: b.depth_error(shapes.error),
                     same_sense: a.area * b.area > 0.0,
                     doubtful: false,
                 };
@@ -152,11 +152,6 @@ fn depth_on(a: &Outline, b: &Outline) -> Option<f64> {
     (count > 0).then(|| all.sum::<f64>() / count as f64)
 }
 
-fn parallel(a: &Outline, b: &Outline) -> Option<(Tilt, Tilt)> {
-    let (p, q) = (a.plane?, b.plane?);
-    (p.normal().cross(q.normal()).length() < PARALLEL).then_some((p, q))
-}
-
 /// Offset in depth that puts two loops' axes into one line, if they are drawn so.
 fn coaxial(shapes: &Shapes, a: &Outline, b: &Outline) -> Option<f64> {
     let (p, q) = (a.line?, b.line?);
@@ -167,7 +162,7 @@ fn coaxial(shapes: &Shapes, a: &Outline, b: &Outline) -> Option<f64> {
     let drawn = shapes.camera.drawn(axis, p.at);
     let length = drawn.length();
     let apart = q.at - p.at;
-    if length < 1e-3 || apart.perp_dot(drawn).abs() > ON_AXIS * shapes.size * length {
+    if length < 1e-3 || apart.perp_dot(drawn).abs() > shapes.on_axis() * length {
         return None;
     }
     Some(p.depth + shapes.camera.climb(axis, p.at, q.at) - q.depth)

@@ -28,9 +28,9 @@ mod shapes;
 mod tests;
 mod trials;
 
-use crate::drawing::{Drawing, Graph};
+use crate::drawing::Graph;
 use crate::identify::Face;
-use crate::lift::Pieces;
+use crate::lift::{Pieces, Readings};
 use score::HandJoinScorer;
 use shapes::Shapes;
 
@@ -50,8 +50,8 @@ pub(super) struct Grouping {
 }
 
 /// Groups loops, each given as a face of one loop; the best grouping first, never none.
-pub(super) fn group(drawing: &Drawing, graph: &Graph, loops: &[Face]) -> Vec<Grouping> {
-    let Ok(pieces) = Pieces::new(drawing, loops) else {
+pub(super) fn group(readings: &Readings<'_>, graph: &Graph, loops: &[Face]) -> Vec<Grouping> {
+    let Ok((drawing, pieces)) = Pieces::new(readings, loops) else {
         return vec![Grouping {
             faces: (0..loops.len()).map(|i| vec![i]).collect(),
             sureness: vec![1.0; loops.len()],

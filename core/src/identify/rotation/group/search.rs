@@ -196,7 +196,7 @@ impl<'a> Search<'a> {
                 && link.kind == LinkKind::Coplanar
                 && !link.same_sense
                 && apart
-                && link.offset.abs() < 2.0 * shapes.tolerance
+                && link.offset.abs() < 2.0 * shapes.slack(link.error)
             {
                 let area = |l: usize| shapes.loops[self.joiner.links[l].outer].area.abs();
                 let best = &mut around[link.inner];

@@ -7,7 +7,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::Progress;
-use crate::drawing::{CoEdge, SurfaceKind};
+use crate::drawing::{CoEdge, Drawing, SurfaceKind};
 use crate::identify::rotation::RotationEngine;
 use crate::identify::testing::{bracket, holed_cube, polyhedron};
 use crate::identify::{Engine, Evidence, from_truth};
@@ -141,7 +141,7 @@ proptest! {
         let graph = Graph::new(&drawing);
         let loops = single_loops(&drawing);
         let truth = edge_sets(&from_truth(&drawing).unwrap().faces);
-        let found = group(&drawing, &graph, &loops);
+        let found = group(&Readings::new(&drawing), &graph, &loops);
         let at = found.iter().position(|g| {
             let merged = g.faces.iter().map(|list| {
                 let mut edges: Vec<usize> =
@@ -233,8 +233,49 @@ fn inner_loops_go_round_the_other_way() {
 fn without_directions_loops_stay_alone() {
     let drawing = holed_cube();
     let graph = Graph::new(&drawing);
-    assert_eq!(group(&drawing, &graph, &[]).len(), 1);
+    assert_eq!(group(&Readings::new(&drawing), &graph, &[]).len(), 1);
     let one = crate::identify::rotation::samples::circle();
-    let found = group(&one, &Graph::new(&one), &[]);
+    let found = group(&Readings::new(&one), &Graph::new(&one), &[]);
     assert_eq!(found[0].faces, Vec::<Vec<usize>>::new());
+}
+
+/// Moves every vertex by a share of the drawing's size to a side of its own.
+fn shaken(mut drawing: Drawing, share: f64) -> Drawing {
+    let by = share * drawing.size();
+    for (i, p) in drawing.vertices.iter_mut().enumerate() {
+        *p += glam::DVec2::from_angle(2.4 * (i * i) as f64) * by;
+    }
+    for edge in &mut drawing.edges {
+        edge.points = edge.v.map(|v| drawing.vertices[v]).to_vec();
+    }
+    drawing
+}
+
+/// A hole, and a pocket, each through a plane that is drawn by hand.
+#[test]
+fn loops_of_a_drawing_by_hand_are_grouped() {
+    let hole = Feature {
+        low: [0.4, 0.6],
+        high: [1.5, 2.1],
+        end: 0.0,
+    };
+    let boss = Feature {
+        low: [2.4, 0.7],
+        high: [3.5, 2.0],
+        end: 4.6,
+    };
+    let exact = seen(block(&[hole, boss]), 0.45, -0.8);
+    for share in [0.001, 0.003, 0.005] {
+        let drawing = shaken(exact.clone(), share);
+        let loops = single_loops(&drawing);
+        let truth = edge_sets(&from_truth(&drawing).unwrap().faces);
+        let readings = Readings::new(&drawing);
+        let found = group(&readings, &Graph::new(&drawing), &loops);
+        let merged = found[0].faces.iter().map(|list| {
+            let mut edges: Vec<usize> = list.iter().flat_map(|&i| loops[i].edge_set()).collect();
+            edges.sort_unstable();
+            edges
+        });
+        assert_eq!(merged.collect::<BTreeSet<_>>(), truth, "{share}");
+    }
 }

@@ -78,7 +78,7 @@ pub(super) fn chains(shapes: &Shapes, links: &[Link]) -> Vec<Chain> {
         }
         let off = |at: DVec2| (at - line.at).perp_dot(along.normalize()).abs();
         let near =
-            |g: &&mut (usize, DVec2, Vec<usize>)| g.0 == line.axis && off(g.1) < 2e-3 * shapes.size;
+            |g: &&mut (usize, DVec2, Vec<usize>)| g.0 == line.axis && off(g.1) < shapes.on_axis();
         match groups.iter_mut().find(near) {
             Some(group) => group.2.push(i),
             None => groups.push((line.axis, line.at, vec![i])),
@@ -139,7 +139,9 @@ impl Chain {
             let (p, q) = (&shapes.loops[link.outer], &shapes.loops[link.inner]);
             let circles = shapes.parts[p.part].is_circle && shapes.parts[q.part].is_circle;
             // Either loop of a circle stands for the other.
-            if p.part == q.part || off.abs() > 2.0 * shapes.tolerance || circles && link.same_sense
+            if p.part == q.part
+                || off.abs() > 2.0 * shapes.slack(link.error)
+                || circles && link.same_sense
             {
                 continue;
             }
@@ -242,7 +244,8 @@ fn skipped(shapes: &Shapes, rings: &[Ring], a: usize, b: usize) -> usize {
             let part = shapes.loops[r.outline].part;
             let between = match (outer.along, inner.along, r.along) {
                 (Some(s), Some(t), Some(x)) => {
-                    x > s.min(t) - shapes.tolerance && x < s.max(t) + shapes.tolerance
+                    let slack = shapes.slack(shapes.error);
+                    x > s.min(t) - slack && x < s.max(t) + slack
                 }
                 _ => true,
             };

@@ -7,6 +7,7 @@ use glam::{DMat3, DVec3};
 use super::super::group;
 use crate::drawing::{CoEdge, Curve2, Drawing, Edge, Graph, Projection, SurfaceKind};
 use crate::identify::{Evidence, Face};
+use crate::lift::Readings;
 
 /// Circles around one axis, each by radius and height.
 fn turned(profile: &[(f64, f64)]) -> Drawing {
@@ -48,7 +49,7 @@ fn faces(profile: &[(f64, f64)]) -> Vec<BTreeSet<usize>> {
             evidence: Evidence::default(),
         })
         .collect();
-    let found = group(&drawing, &Graph::new(&drawing), &loops);
+    let found = group(&Readings::new(&drawing), &Graph::new(&drawing), &loops);
     let mut faces: Vec<BTreeSet<usize>> = found[0]
         .faces
         .iter()
