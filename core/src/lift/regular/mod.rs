@@ -11,8 +11,10 @@
 mod common;
 mod concede;
 mod draft;
+mod faults;
 mod fit;
 mod order;
+mod prisms;
 mod problem;
 mod redraw;
 mod report;
@@ -30,6 +32,7 @@ use super::{Lift, LiftError, LiftMethod, LiftOptions, solve};
 use crate::drawing::{Drawing, Projection};
 use crate::identify::Face;
 use draft::Draft;
+use faults::Faults;
 
 /// A miss of this many errors counts no more than one of so many.
 const WILD: f64 = 5.0;
@@ -42,8 +45,12 @@ const FREEDOM: f64 = 3.0;
 const OPEN: f64 = 100.0;
 const MOST_OPEN: f64 = 1000.0;
 
-/// What two neighbouring faces in one plane cost: the flat drawing fits itself.
+/// What two neighbouring faces in one plane cost: the flat drawing fits itself. An edge that vanishes
+/// and a face that crosses itself cost as much, as no solid has them.
 const FLAT: f64 = 30.0;
+
+/// What a drawing costs that is flat as a whole.
+const SHEET: f64 = 3000.0;
 
 /// Sine of the angle below which neighbouring planes are one.
 const BENT: f64 = 0.02;
@@ -88,6 +95,7 @@ pub(super) fn lift(
             reading
         };
         let drawn = recognised(drawing, reading.precision);
+        let reading = prisms::completed(&drawn, faces, reading);
         match attempt(&drawn, faces, &reading) {
             Ok(found) => {
                 let sure = found.is_sure();
@@ -100,10 +108,16 @@ pub(super) fn lift(
         }
     }
     // All are compared at one level of noise, which what is flat does not tell.
-    let told = tried.iter().filter(|a| a.flat == 0).map(|a| a.noise);
+    let told = tried.iter().filter(|a| a.flat == 0 && !a.faults.flat).map(|a| a.noise);
     let noise = told
         .chain(tried.iter().map(|a| 10.0 * a.noise))
         .fold(f64::INFINITY, f64::min);
+    if std::env::var("NL_DEBUG").is_ok() {
+        for a in &tried {
+            eprintln!("  attempt {} noise {:.4} fits {} viol {:.1e} freedom {} flat {} square {:.2} vanished {} tangled {:?} sheet {} cost {:.1} misses {:.1} dirs {:?}", drawing.id, a.noise, a.fits, a.violation, a.freedom, a.flat, a.square, a.faults.vanished.len(), a.faults.tangled, a.faults.flat, a.cost(noise),
+                a.misses.iter().map(|m| (m / noise).min(WILD).powi(2)).sum::<f64>(), a.lift.directions.iter().map(|d| [d.x, d.y, d.z].map(|c| (c * 100.0).round() / 100.0)).collect::<Vec<_>>());
+        }
+    }
     let best = tried
         .into_iter()
         .min_by(|a, b| a.cost(noise).total_cmp(&b.cost(noise)));
@@ -135,6 +149,8 @@ struct Attempt {
     freedom: usize,
     /// Edges between planes that are one.
     flat: usize,
+    /// What no solid has.
+    faults: Faults,
     /// Share of the surfaces that are along known directions of a whole frame.
     square: f64,
 }
@@ -145,13 +161,14 @@ impl Attempt {
         let misses = self.misses.iter().map(|m| (m / noise).min(WILD).powi(2));
         misses.sum::<f64>()
             + (OPEN * self.violation / noise).min(MOST_OPEN)
-            + FLAT * self.flat as f64
+            + FLAT * (self.flat + self.faults.vanished.len() + self.faults.tangled.len()) as f64
+            + if self.faults.flat { SHEET } else { 0.0 }
             + FREEDOM * self.freedom as f64
     }
 
     /// Whether no other reading need be tried.
     fn is_sure(&self) -> bool {
-        self.fits && self.flat == 0 && self.violation < CLOSED && self.square > SQUARE
+        self.fits && self.flat == 0 && self.faults.count() == 0 && !self.faults.flat && self.violation < CLOSED && self.square > SQUARE
     }
 }
 
@@ -170,6 +187,7 @@ fn attempt(drawing: &Drawing, faces: &[Face], reading: &Directions) -> Result<At
         violation: fitted.violation,
         freedom: draft.freedom(),
         flat: flat(&draft),
+        faults: Faults::of(&draft),
         square: if reading.is_frame() {
             draft.square_share()
         } else {
