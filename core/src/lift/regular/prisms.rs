@@ -1,10 +1,11 @@
-//! Short edges take their direction from the prism that they are of.
+//! Short edges take their direction from what they are of.
 //!
 //! The side of a prism, be it a plate, a slot or a step, is a row of faces with four edges, of which
 //! every second one follows the prism's axis. Each of them may be no longer than the noise, so that
-//! it follows any axis; together they tell which one.
+//! it seems to follow any axis; together they tell which one. And an edge that leaves a plane does
+//! not run in it, so that a plane whose normal is told by long edges leaves one axis only.
 
-use crate::drawing::{CoEdge, Drawing};
+use crate::drawing::{CoEdge, Drawing, SurfaceKind};
 use crate::identify::Face;
 use crate::lift::directions::Directions;
 use crate::sets::Sets;
@@ -18,33 +19,88 @@ const CLEAR: f64 = 8.0;
 /// An axis that is drawn shorter is seen from its end and has no direction in the drawing.
 const END_ON: f64 = 0.05;
 
-/// The reading, with the edges of rows along the axes that the rows tell.
+/// Edges of so many errors of their ends tell the plane of a face.
+const LONG: f64 = 12.0;
+
+/// The reading, with the edges of rows along the axes that the rows and the planes beside them tell.
 pub(super) fn completed(drawing: &Drawing, faces: &[Face], mut reading: Directions) -> Directions {
-    let rows = rows(drawing, faces, reading.precision);
-    for row in rows.iter().filter(|row| row.len() > 1) {
-        let error = std::f64::consts::SQRT_2 * reading.precision;
+    let error = std::f64::consts::SQRT_2 * reading.precision;
+    let normals: Vec<Option<usize>> = faces.iter().map(|f| normal(drawing, f, &reading)).collect();
+    for row in rows(drawing, faces, error) {
+        let may: Vec<bool> = (0..reading.axes.len())
+            .map(|k| row.iter().all(|&e| may_follow(drawing, faces, &normals, e, k)))
+            .collect();
         let misses = |k: usize| -> Vec<f64> {
             let offs = row.iter().map(|&e| off(drawing, &reading, e, k) / error);
             offs.collect()
         };
         let mut fits: Vec<(f64, usize)> = (0..reading.axes.len())
+            .filter(|&k| may[k])
             .map(|k| (misses(k).iter().map(|m| m * m).sum(), k))
             .collect();
         fits.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let Some(&(best, k)) = fits.first() else {
-            continue;
+        let clear = match fits[..] {
+            [] => false,
+            [_] => may.contains(&false) || row.len() > 1,
+            [best, second, ..] => row.len() > 1 && second.0 > best.0 + CLEAR,
         };
-        let clear = fits.get(1).is_none_or(|second| second.0 > best + CLEAR);
-        if !clear || misses(k).iter().any(|m| m.abs() > ERRORS) {
-            continue;
+        let told = fits
+            .first()
+            .map(|f| f.1)
+            .filter(|&k| clear && misses(k).iter().all(|m| m.abs() < ERRORS));
+        for (k, axis) in reading.axes.iter_mut().enumerate() {
+            axis.edges
+                .retain(|e| !row.contains(e) || (may[k] && told.is_none()));
         }
-        for axis in &mut reading.axes {
-            axis.edges.retain(|e| !row.contains(e));
+        if let Some(k) = told {
+            reading.axes[k].edges.extend(row);
+            reading.axes[k].edges.sort_unstable();
         }
-        reading.axes[k].edges.extend(row);
-        reading.axes[k].edges.sort_unstable();
     }
     reading
+}
+
+/// The axis that a plane is normal to, if long edges along two others tell it.
+fn normal(drawing: &Drawing, face: &Face, reading: &Directions) -> Option<usize> {
+    if face.kind != SurfaceKind::Plane || !reading.is_frame() {
+        return None;
+    }
+    let mut lengths = [0.0f64; 3];
+    for e in face.edge_set() {
+        if let Some(k) = reading.axis_of_edge(e) {
+            let [a, b] = drawing.edges[e].v.map(|v| drawing.vertices[v]);
+            lengths[k] = lengths[k].max(a.distance(b));
+        }
+    }
+    let told: Vec<usize> = (0..3)
+        .filter(|&k| lengths[k] > LONG * reading.precision)
+        .collect();
+    match told[..] {
+        [i, j] => Some(3 - i - j),
+        _ => None,
+    }
+}
+
+/// Whether an edge may follow an axis: an edge of a plane runs in it, and one that leaves it does not.
+fn may_follow(
+    drawing: &Drawing,
+    faces: &[Face],
+    normals: &[Option<usize>],
+    edge: usize,
+    axis: usize,
+) -> bool {
+    let ends = drawing.edges[edge].v;
+    faces.iter().zip(normals).all(|(face, normal)| {
+        let Some(normal) = *normal else {
+            return true;
+        };
+        let edges = face.edge_set();
+        if edges.contains(&edge) {
+            return axis != normal;
+        }
+        let on = ends.map(|v| edges.iter().any(|&e| drawing.edges[e].v.contains(&v)));
+        on[0] == on[1] || axis == normal
+    })
 }
 
 /// How far an edge's second end is drawn off the line along an axis through its first.
@@ -61,7 +117,7 @@ fn off(drawing: &Drawing, reading: &Directions, edge: usize, axis: usize) -> f64
 }
 
 /// Straight edges in rows of faces with four edges, each opposite the next.
-fn rows(drawing: &Drawing, faces: &[Face], precision: f64) -> Vec<Vec<usize>> {
+fn rows(drawing: &Drawing, faces: &[Face], error: f64) -> Vec<Vec<usize>> {
     let mut sets = Sets::new(drawing.edges.len());
     let vector = |c: &CoEdge| {
         let [a, b] = drawing.edges[c.edge()].v.map(|v| drawing.vertices[v]);
@@ -82,8 +138,7 @@ fn rows(drawing: &Drawing, faces: &[Face], precision: f64) -> Vec<Vec<usize>> {
             // Opposite sides of a loop run against each other.
             let (s, t) = (vector(one), -vector(two));
             let (short, long) = if s.length() < t.length() { (s, t) } else { (t, s) };
-            let off = long.normalize_or_zero().perp_dot(short);
-            if off.abs() < ERRORS * std::f64::consts::SQRT_2 * precision {
+            if long.normalize_or_zero().perp_dot(short).abs() < ERRORS * error {
                 sets.join(one.edge(), two.edge());
             }
         }
@@ -92,5 +147,6 @@ fn rows(drawing: &Drawing, faces: &[Face], precision: f64) -> Vec<Vec<usize>> {
     for e in (0..drawing.edges.len()).filter(|&e| drawing.edges[e].is_straight()) {
         rows[sets.find(e)].push(e);
     }
+    rows.retain(|row| !row.is_empty());
     rows
 }
