@@ -68,6 +68,13 @@ impl<'a> Sheet<'a> {
         for (face, list) in face_edges.iter().enumerate() {
             list.iter().for_each(|&e| faces_of[e].push(face));
         }
+        // Lines of a cone meet at its apex: that they follow an axis is chance.
+        let is_cone = |f: &usize| faces[*f].kind == SurfaceKind::Cone;
+        for (axis, beside) in edge_axis.iter_mut().zip(&faces_of) {
+            if beside.len() == 2 && beside.iter().all(is_cone) {
+                *axis = None;
+            }
+        }
         let mut edges_at = vec![Vec::new(); drawing.vertices.len()];
         for (e, edge) in drawing.edges.iter().enumerate() {
             edges_at[edge.v[0]].push(e);
