@@ -225,13 +225,6 @@ fn measure_solid(
     let taken = make(drawing, found, false, &options);
     measured.exchanged = taken.reading > 0;
     let made = taken.result;
-    if let Ok(path) = std::env::var("NL_DUMP") {
-        use std::io::Write as _;
-        let why = made.built.as_ref().err().map(|e| e.to_string());
-        let line = serde_json::json!({"id": drawing.id, "why": why, "lift": made.lift, "drawn": drawing.vertices, "ms": milliseconds(made.lift_time)});
-        let mut f = std::fs::OpenOptions::new().create(true).append(true).open(path).unwrap();
-        writeln!(f, "{line}").unwrap();
-    }
     if let Some(lifted) = &made.lift {
         measured.lift_ms = Some(milliseconds(made.lift_time));
         let error = depth_error(lifted, truth);
@@ -246,10 +239,6 @@ fn measure_solid(
             measured.solid_ms = Some(milliseconds(made.build_time));
         }
         Err(failure) => fail(stage(failure), failure.to_string()),
-    }
-    if std::env::var("NL_NOCMP").is_ok() {
-        measured.near_top3 = true;
-        return;
     }
     match beside_truth(&made, drawing, truth, found.reading(taken.reading)) {
         Some(Ok(compared)) => {

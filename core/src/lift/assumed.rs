@@ -97,11 +97,7 @@ fn slanted(sheet: &Sheet<'_>, usual: bool, system: &mut System<Tag>) {
     let slants = sheet.directions.slanted.iter();
     for slant in slants.filter(|s| s.usual == usual) {
         for &edge in &slant.edges {
-            let beside = sheet.neighbours(edge).iter();
-            if beside
-                .map(|&f| sheet.faces[f].kind)
-                .all(|kind| kind == SurfaceKind::Cone)
-            {
+            if sheet.is_cone_line(edge) {
                 continue;
             }
             let v = sheet.drawing.edges[edge].v;

@@ -162,3 +162,37 @@ fn meet([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> bool {
     };
     across || on(a, b, c) || on(a, b, d) || on(c, d, a) || on(c, d, b)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// An edge between two numbered vertices.
+    fn edge(v: [usize; 2], points: &[[f64; 2]]) -> ([usize; 2], Vec<DVec2>) {
+        (v, points.iter().map(|&p| DVec2::from(p)).collect())
+    }
+
+    #[test]
+    fn edges_that_cross_touch_or_run_back_are_tangled() {
+        let base = edge([0, 1], &[[0.0, 0.0], [1.0, 0.0]]);
+        let across = edge([2, 3], &[[0.5, -0.5], [0.5, 0.5]]);
+        let onto = edge([2, 3], &[[0.5, 0.0], [0.5, 0.5]]);
+        let back = edge([1, 2], &[[1.0, 0.0], [0.3, 0.0]]);
+        let around = edge([2, 3], &[[0.2, 0.5], [0.4, -0.1], [0.6, 0.5]]);
+        for other in [across, onto, back, around] {
+            assert!(tangle(&base, &other) && tangle(&other, &base), "{other:?}");
+        }
+    }
+
+    #[test]
+    fn neighbours_and_edges_apart_are_not() {
+        let base = edge([0, 1], &[[0.0, 0.0], [1.0, 0.0]]);
+        let corner = edge([1, 2], &[[1.0, 0.0], [1.0, 1.0]]);
+        let straight_on = edge([1, 2], &[[1.0, 0.0], [2.0, 0.0]]);
+        let other_way_round = edge([0, 1], &[[0.0, 0.0], [0.5, 0.5], [1.0, 0.0]]);
+        let apart = edge([2, 3], &[[0.0, 0.2], [1.0, 0.2]]);
+        for other in [corner, straight_on, other_way_round, apart] {
+            assert!(!tangle(&base, &other), "{other:?}");
+        }
+    }
+}

@@ -4,10 +4,11 @@
 //! large weight, and what they miss after a step is asked for in the next one, so that they hold to
 //! rounding in the end although the weights are finite.
 
+use glam::DVec3;
+
 use super::problem::{Condition, Problem, triple};
 use crate::lift::LiftError;
 use crate::lift::system::{Pattern, System};
-use glam::DVec3;
 
 /// Weight of conditions beside drawn points.
 const STRONG: f64 = 300.0;

@@ -55,6 +55,9 @@ const SHEET: f64 = 3000.0;
 /// Sine of the angle below which neighbouring planes are one.
 const BENT: f64 = 0.02;
 
+/// Sine of the angle within which the axes of two readings are the same.
+const TWIN: f64 = 0.02;
+
 /// A reading is not doubted if its fit is no more than so many times as inexact as its directions,
 /// conditions miss by less than this, and that share of the planes and cylinders is square.
 const LOUD: f64 = 1.5;
@@ -87,6 +90,7 @@ pub(super) fn lift(
         }
     };
     let mut tried: Vec<Attempt> = Vec::new();
+    let mut seen: Vec<Directions> = Vec::new();
     let mut refusal = exact();
     for reading in readings {
         let reading = if options.flip {
@@ -96,6 +100,9 @@ pub(super) fn lift(
         };
         let drawn = recognised(drawing, reading.precision);
         let reading = prisms::completed(&drawn, faces, reading);
+        if seen.iter().any(|other| is_same(other, &reading)) {
+            continue;
+        }
         match attempt(&drawn, faces, &reading) {
             Ok(found) => {
                 let sure = found.is_sure();
@@ -106,22 +113,31 @@ pub(super) fn lift(
             }
             Err(error) => refusal = error,
         }
+        seen.push(reading);
     }
     // All are compared at one level of noise, which what is flat does not tell.
-    let told = tried.iter().filter(|a| a.flat == 0 && !a.faults.flat).map(|a| a.noise);
+    let told = tried
+        .iter()
+        .filter(|a| a.flat == 0 && !a.faults.flat)
+        .map(|a| a.noise);
     let noise = told
         .chain(tried.iter().map(|a| 10.0 * a.noise))
         .fold(f64::INFINITY, f64::min);
-    if std::env::var("NL_DEBUG").is_ok() {
-        for a in &tried {
-            eprintln!("  attempt {} noise {:.4} fits {} viol {:.1e} freedom {} flat {} square {:.2} vanished {} tangled {:?} sheet {} cost {:.1} misses {:.1} dirs {:?}", drawing.id, a.noise, a.fits, a.violation, a.freedom, a.flat, a.square, a.faults.vanished.len(), a.faults.tangled, a.faults.flat, a.cost(noise),
-                a.misses.iter().map(|m| (m / noise).min(WILD).powi(2)).sum::<f64>(), a.lift.directions.iter().map(|d| [d.x, d.y, d.z].map(|c| (c * 100.0).round() / 100.0)).collect::<Vec<_>>());
-        }
-    }
     let best = tried
         .into_iter()
         .min_by(|a, b| a.cost(noise).total_cmp(&b.cost(noise)));
     best.map(|found| found.lift).ok_or(refusal)
+}
+
+/// Whether two readings place the same edges and circles along nearly the same axes.
+fn is_same(a: &Directions, b: &Directions) -> bool {
+    a.precision == b.precision
+        && a.axes.len() == b.axes.len()
+        && a.axes.iter().zip(&b.axes).all(|(p, q)| {
+            p.edges == q.edges
+                && p.circles == q.circles
+                && p.direction.cross(q.direction).length() < TWIN
+        })
 }
 
 /// Whether a drawing may be inexact, from its lift as it is drawn.
@@ -168,7 +184,8 @@ impl Attempt {
 
     /// Whether no other reading need be tried.
     fn is_sure(&self) -> bool {
-        self.fits && self.flat == 0 && self.faults.count() == 0 && !self.faults.flat && self.violation < CLOSED && self.square > SQUARE
+        let sound = self.flat == 0 && self.faults.count() == 0 && !self.faults.flat;
+        self.fits && sound && self.violation < CLOSED && self.square > SQUARE
     }
 }
 

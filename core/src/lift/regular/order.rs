@@ -38,8 +38,7 @@ pub(super) fn untangle(draft: &mut Draft<'_, '_>, mut fitted: Fitted) -> Fitted 
         let now = Faults::of(draft);
         match refit {
             Ok(new)
-                if new.violation < BROKEN.max(fitted.violation)
-                    && now.count() < faults.count() =>
+                if new.violation < BROKEN.max(fitted.violation) && now.count() < faults.count() =>
             {
                 (fitted, faults) = (new, now);
             }

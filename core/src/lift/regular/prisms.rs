@@ -28,7 +28,10 @@ pub(super) fn completed(drawing: &Drawing, faces: &[Face], mut reading: Directio
     let normals: Vec<Option<usize>> = faces.iter().map(|f| normal(drawing, f, &reading)).collect();
     for row in rows(drawing, faces, error) {
         let may: Vec<bool> = (0..reading.axes.len())
-            .map(|k| row.iter().all(|&e| may_follow(drawing, faces, &normals, e, k)))
+            .map(|k| {
+                row.iter()
+                    .all(|&e| may_follow(drawing, faces, &normals, e, k))
+            })
             .collect();
         let misses = |k: usize| -> Vec<f64> {
             let offs = row.iter().map(|&e| off(drawing, &reading, e, k) / error);
@@ -137,7 +140,11 @@ fn rows(drawing: &Drawing, faces: &[Face], error: f64) -> Vec<Vec<usize>> {
             }
             // Opposite sides of a loop run against each other.
             let (s, t) = (vector(one), -vector(two));
-            let (short, long) = if s.length() < t.length() { (s, t) } else { (t, s) };
+            let (short, long) = if s.length() < t.length() {
+                (s, t)
+            } else {
+                (t, s)
+            };
             if long.normalize_or_zero().perp_dot(short).abs() < ERRORS * error {
                 sets.join(one.edge(), two.edge());
             }
@@ -149,4 +156,81 @@ fn rows(drawing: &Drawing, faces: &[Face], error: f64) -> Vec<Vec<usize>> {
     }
     rows.retain(|row| !row.is_empty());
     rows
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lift::Camera;
+    use crate::lift::directions::Axis;
+    use crate::lift::testing::{extrusion, turned};
+    use glam::DVec3;
+
+    /// A thin plate with a notch, and its reading: edges in its plane are right, those across it are
+    /// said to follow the plate's first axis, or none.
+    fn plate(wrong: bool) -> (Drawing, Vec<Face>, Directions, Vec<usize>) {
+        let corners = [
+            [0.0, 0.0],
+            [1.4, 0.0],
+            [1.4, 0.5],
+            [0.6, 0.5],
+            [0.6, 1.1],
+            [0.0, 1.1],
+        ];
+        let turn = turned(0.6, 0.7, 0.05);
+        let (drawing, faces) = extrusion(turn, &corners, 0.02);
+        let axes = DVec3::AXES.map(|axis| turn * axis);
+        let along = |e: usize| {
+            let [a, b] = drawing.truth.as_ref().unwrap().edges3d[e][..] else {
+                panic!("edge {e} is bent")
+            };
+            let d = (b - a).normalize();
+            (0..3).find(|&k| d.cross(axes[k]).length() < 1e-6).unwrap()
+        };
+        let edges = 0..drawing.edges.len();
+        let (across, flat): (Vec<usize>, Vec<usize>) = edges.partition(|&e| along(e) == 2);
+        let axes = (0..3).map(|k| Axis {
+            direction: axes[k],
+            edges: flat
+                .iter()
+                .chain(across.iter().filter(|_| wrong))
+                .copied()
+                .filter(|&e| along(e) == k || (along(e) == 2 && k == 0))
+                .collect(),
+            circles: Vec::new(),
+        });
+        let reading = Directions {
+            axes: axes.collect(),
+            slanted: Vec::new(),
+            camera: Camera::Parallel,
+            error: 0.01,
+            precision: 0.005,
+        };
+        (drawing, faces, reading, across)
+    }
+
+    #[test]
+    fn edges_across_a_plate_follow_the_axis_that_its_ends_leave() {
+        for wrong in [false, true] {
+            let (drawing, faces, reading, across) = plate(wrong);
+            let mut expected = reading.clone();
+            expected.axes[0].edges.retain(|e| !across.contains(e));
+            expected.axes[2].edges = across;
+            assert_eq!(completed(&drawing, &faces, reading), expected);
+        }
+    }
+
+    #[test]
+    fn edges_across_a_tapered_plate_follow_none() {
+        let (mut drawing, faces, reading, across) = plate(true);
+        // Each leads far to a side of its own.
+        for (i, &e) in across.iter().enumerate() {
+            let [_, v] = drawing.edges[e].v;
+            drawing.vertices[v] += glam::DVec2::from_angle(i as f64) * 0.2;
+        }
+        let found = completed(&drawing, &faces, reading);
+        let follows = |e: &usize| found.axis_of_edge(*e).is_some();
+        assert!(!across.iter().all(follows));
+        assert!(across.iter().all(|e| found.axis_of_edge(*e) != Some(0)));
+    }
 }
