@@ -160,11 +160,12 @@ fn rows(drawing: &Drawing, faces: &[Face], error: f64) -> Vec<Vec<usize>> {
 
 #[cfg(test)]
 mod tests {
+    use glam::{DVec2, DVec3};
+
     use super::*;
     use crate::lift::Camera;
     use crate::lift::directions::Axis;
     use crate::lift::testing::{extrusion, turned};
-    use glam::DVec3;
 
     /// A thin plate with a notch, and its reading: edges in its plane are right, those across it are
     /// said to follow the plate's first axis, or none.
@@ -181,9 +182,8 @@ mod tests {
         let (drawing, faces) = extrusion(turn, &corners, 0.02);
         let axes = DVec3::AXES.map(|axis| turn * axis);
         let along = |e: usize| {
-            let [a, b] = drawing.truth.as_ref().unwrap().edges3d[e][..] else {
-                panic!("edge {e} is bent")
-            };
+            let places = &drawing.truth.as_ref().unwrap().vertices3d;
+            let [a, b] = drawing.edges[e].v.map(|v| places[v]);
             let d = (b - a).normalize();
             (0..3).find(|&k| d.cross(axes[k]).length() < 1e-6).unwrap()
         };
@@ -226,7 +226,7 @@ mod tests {
         // Each leads far to a side of its own.
         for (i, &e) in across.iter().enumerate() {
             let [_, v] = drawing.edges[e].v;
-            drawing.vertices[v] += glam::DVec2::from_angle(i as f64) * 0.2;
+            drawing.vertices[v] += DVec2::from_angle(i as f64) * 0.2;
         }
         let found = completed(&drawing, &faces, reading);
         let follows = |e: &usize| found.axis_of_edge(*e).is_some();
