@@ -97,6 +97,9 @@ fn slanted(sheet: &Sheet<'_>, usual: bool, system: &mut System<Tag>) {
     let slants = sheet.directions.slanted.iter();
     for slant in slants.filter(|s| s.usual == usual) {
         for &edge in &slant.edges {
+            if sheet.is_cone_line(edge) {
+                continue;
+            }
             let v = sheet.drawing.edges[edge].v;
             along(sheet, v, slant.direction, Tag::Parallel { edge }, system);
         }

@@ -68,6 +68,11 @@ impl<'a> Sheet<'a> {
         for (face, list) in face_edges.iter().enumerate() {
             list.iter().for_each(|&e| faces_of[e].push(face));
         }
+        for (axis, beside) in edge_axis.iter_mut().zip(&faces_of) {
+            if are_cones(faces, beside) {
+                *axis = None;
+            }
+        }
         let mut edges_at = vec![Vec::new(); drawing.vertices.len()];
         for (e, edge) in drawing.edges.iter().enumerate() {
             edges_at[edge.v[0]].push(e);
@@ -107,6 +112,12 @@ impl<'a> Sheet<'a> {
 
     pub(super) fn camera(&self) -> &Camera {
         &self.directions.camera
+    }
+
+    /// Whether an edge is between cones. If it is straight it leads to an apex, and that it follows an
+    /// axis or others with a vanishing point is chance.
+    pub(super) fn is_cone_line(&self, edge: usize) -> bool {
+        are_cones(self.faces, &self.faces_of[edge])
     }
 
     /// The point drawn at `p` with a height.
@@ -168,6 +179,11 @@ impl<'a> Sheet<'a> {
     pub(super) fn is_straight(&self, edge: usize) -> bool {
         matches!(self.drawing.edges[edge].curve, Curve2::Line)
     }
+}
+
+/// Whether there are two faces and both are cones.
+fn are_cones(faces: &[Face], beside: &[usize]) -> bool {
+    beside.len() == 2 && beside.iter().all(|&f| faces[f].kind == SurfaceKind::Cone)
 }
 
 fn corners(drawing: &Drawing, face: &Face) -> Vec<usize> {

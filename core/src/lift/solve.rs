@@ -255,10 +255,11 @@ fn settle(
     active: &[bool],
 ) -> Result<Vec<f64>, LiftError> {
     restore(system, base);
-    let mut x = system.minimise(active)?;
+    let pattern = system.pattern(active)?;
+    let mut x = system.minimise_as(active, &pattern)?;
     for _ in 1..WEIGHINGS {
         weigh(system, unknowns, base, &x);
-        x = system.minimise(active)?;
+        x = system.minimise_as(active, &pattern)?;
     }
     weigh(system, unknowns, base, &x);
     Ok(x)

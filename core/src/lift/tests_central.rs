@@ -108,3 +108,28 @@ fn the_end_of_a_frustum_is_centred() {
         error(&drawing, &found)
     );
 }
+
+/// The outlines of a cone meet in a point that is no vanishing point.
+#[test]
+fn the_outlines_of_a_cone_follow_no_axis() {
+    let scene = Scene::central(turned(0.6, 0.7, 0.1), DVec3::Z * -9.0, DVec2::ZERO, 3.0);
+    let (drawing, mut faces) = drilled(scene, DVec3::ONE, DVec2::splat(0.5), 0.2);
+    let readings = Directions::estimate(&drawing).unwrap();
+    let lines = |faces: &[Face]| {
+        let sheet = Sheet::new(&drawing, faces, &readings);
+        let along = |&&e: &&usize| sheet.is_straight(e) && sheet.edge_axis[e].is_some();
+        faces
+            .iter()
+            .enumerate()
+            .filter(|(_, f)| f.kind != SurfaceKind::Plane)
+            .map(|(f, _)| sheet.edges_of(f).iter().filter(along).count())
+            .sum::<usize>()
+    };
+    assert!(lines(&faces) > 0);
+    for face in &mut faces {
+        if face.kind == SurfaceKind::Cylinder {
+            face.kind = SurfaceKind::Cone;
+        }
+    }
+    assert_eq!(lines(&faces), 0);
+}

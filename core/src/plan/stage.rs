@@ -88,7 +88,7 @@ pub fn plan(drawing: &Drawing, faces: &[Face], lift: &Lift, options: &PlanOption
         .collect();
 
     let measured = measured(drawing, faces, lift, &view, &lifted)?;
-    let mut smooth = smooth_pairs(drawing, &uses, &measured);
+    let mut smooth = smooth_pairs(drawing, faces, &uses, &measured);
     if lift.regular.is_some() {
         // Halves of one cylinder have one surface already, and others are different ones.
         smooth.retain(|&[a, b]| {
@@ -135,7 +135,10 @@ pub fn plan(drawing: &Drawing, faces: &[Face], lift: &Lift, options: &PlanOption
         .zip(&silhouettes)
         .map(|(([a, _], edge), silhouette)| {
             let ends = edge.v.map(|v| lifted[v]);
-            silhouette.then(|| silhouette::plane_of(&supports[a.face], ends, &view))?
+            let surface = &supports[a.face];
+            // What stands in for another surface is seen edge-on elsewhere.
+            (*silhouette && silhouette::is_outline(surface, edge, ends, &view))
+                .then(|| silhouette::plane_of(surface, ends, &view))?
         })
         .collect();
     let noise = lift.regular.as_ref().map_or(0.0, |r| r.noise);
@@ -276,15 +279,24 @@ fn measured(
     Ok(measured)
 }
 
-/// Pairs of faces that an outline may part: straight, unless the surface is a sphere or a torus.
-fn smooth_pairs(drawing: &Drawing, uses: &[[Use; 2]], measured: &[Measured]) -> Vec<[usize; 2]> {
+/// Pairs of faces that an outline may part: straight, unless the surface is a sphere or a torus, or
+/// one that stands in for another kind.
+fn smooth_pairs(
+    drawing: &Drawing,
+    faces: &[Face],
+    uses: &[[Use; 2]],
+    measured: &[Measured],
+) -> Vec<[usize; 2]> {
     let doubly_curved = |face: usize| {
         let support = &measured[face].support;
         matches!(support, Support::Sphere { .. } | Support::Torus { .. })
     };
+    let other = |u: &Use| faces[u.face].kind == SurfaceKind::Other;
     uses.iter()
         .zip(&drawing.edges)
-        .filter(|([a, _], edge)| edge.is_straight() != doubly_curved(a.face))
+        .filter(|([a, b], edge)| {
+            edge.is_straight() != doubly_curved(a.face) || (other(a) && other(b))
+        })
         .map(|([a, b], _)| [a.face, b.face])
         .collect()
 }

@@ -26,6 +26,8 @@ pub(super) struct Draft<'a, 'b> {
     pub(super) start: Problem,
     /// Body of every face.
     pub(super) body_of: Vec<usize>,
+    /// Points of the problem along every edge, without its ends; none if nothing tells them.
+    pub(super) curve_points: Vec<Vec<usize>>,
     /// Drawing units per unit of the problem.
     pub(super) size: f64,
     /// The level of noise, in units of the problem.
@@ -74,6 +76,7 @@ impl<'a, 'b> Draft<'a, 'b> {
             start: problem.clone(),
             problem,
             body_of: vec![0; sheet.faces.len()],
+            curve_points: vec![Vec::new(); sheet.drawing.edges.len()],
             size,
             noise: sheet.directions.precision / size,
         };
@@ -218,6 +221,7 @@ impl<'a, 'b> Draft<'a, 'b> {
                     weight: CURVE_POINT,
                 });
                 let point = self.problem.points.len() - 1;
+                self.curve_points[e].push(point);
                 for body in [a, b] {
                     self.problem.conditions.push(Condition::On { point, body });
                 }

@@ -4,9 +4,11 @@
 //! large weight, and what they miss after a step is asked for in the next one, so that they hold to
 //! rounding in the end although the weights are finite.
 
-use super::problem::{Condition, Problem};
+use glam::DVec3;
+
+use super::problem::{Condition, Problem, triple};
 use crate::lift::LiftError;
-use crate::lift::system::System;
+use crate::lift::system::{Pattern, System};
 
 /// Weight of conditions beside drawn points.
 const STRONG: f64 = 300.0;
@@ -32,10 +34,23 @@ pub(super) struct Fitted {
 /// Solves a problem from where it is; the drawing's size is about 1.
 pub(super) fn fit(problem: &mut Problem) -> Result<Fitted, LiftError> {
     let mut owed = vec![0.0; problem.conditions.len()];
+    let parameters: Vec<Vec<usize>> = problem
+        .conditions
+        .iter()
+        .map(|c| problem.parameters(c))
+        .collect();
+    let mut pattern: Option<(Pattern, Vec<bool>)> = None;
     let mut last = f64::INFINITY;
     for step in 0..STEPS {
-        let system = linear(problem, &owed);
-        let delta = system.minimise(&vec![true; system.rows().len()])?;
+        let system = linear(problem, &parameters, &owed);
+        if pattern.is_none() {
+            let all = vec![true; system.rows().len()];
+            pattern = Some((system.pattern(&all)?, all));
+        }
+        let Some((known, all)) = &pattern else {
+            break;
+        };
+        let delta = system.minimise_as(all, known)?;
         let longest = delta.iter().fold(0.0, |m: f64, d| m.max(d.abs()));
         // Nothing moves farther than the drawing is wide in one step.
         let share = (0.5 / longest).min(1.0);
@@ -82,34 +97,33 @@ pub(super) fn judged(problem: &Problem) -> Fitted {
     }
 }
 
-/// The problem as linear rows about where it is.
-fn linear(problem: &Problem, owed: &[f64]) -> System<()> {
+/// The problem as linear rows about where it is, just after [`Problem::rebase`].
+fn linear(problem: &Problem, parameters: &[Vec<usize>], owed: &[f64]) -> System<()> {
     let mut system = System::new(problem.x.len());
     let mut x = problem.x.clone();
     // Central differences are exact to rounding for what is quadratic.
     let h = 1e-5;
-    for p in 0..problem.points.len() {
-        let point = &problem.points[p];
-        let miss = problem.miss(p, &x);
-        let mut slopes = Vec::with_capacity(6);
-        for i in (0..3).chain(point.at..point.at + 3) {
-            let was = x[i];
-            x[i] = was + h;
-            let up = problem.miss(p, &x);
-            x[i] = was - h;
-            let down = problem.miss(p, &x);
-            x[i] = was;
-            slopes.push((i, (up - down) / (2.0 * h)));
-        }
-        let row = |c: usize| slopes.iter().map(move |(i, s)| (*i, s[c]));
-        system.push(row(0), -miss.x, point.weight, ());
-        system.push(row(1), -miss.y, point.weight, ());
+    for point in &problem.points {
+        let place = problem.rotation * triple(&x, point.at);
+        let miss = problem.camera.project(place) - point.drawn;
+        let slope = |step: DVec3| {
+            let [up, down] = [h, -h].map(|h| problem.camera.project(place + step * h));
+            (up - down) / (2.0 * h)
+        };
+        // Turning the camera moves the point around the origin.
+        let turns = DVec3::AXES.map(|axis| slope(axis.cross(place)));
+        let moves = DVec3::AXES.map(|axis| slope(problem.rotation * axis));
+        let slopes = || {
+            let at = (0..3).chain(point.at..point.at + 3);
+            at.zip(turns.into_iter().chain(moves))
+        };
+        system.push(slopes().map(|(i, s)| (i, s.x)), -miss.x, point.weight, ());
+        system.push(slopes().map(|(i, s)| (i, s.y)), -miss.y, point.weight, ());
     }
-    for (condition, owed) in problem.conditions.iter().zip(owed) {
+    for ((condition, parameters), owed) in problem.conditions.iter().zip(parameters).zip(owed) {
         let value = problem.value(condition, &x);
-        let parameters = problem.parameters(condition);
         let mut terms = Vec::with_capacity(parameters.len());
-        for i in parameters {
+        for &i in parameters {
             terms.push((i, slope(problem, condition, &mut x, i, h)));
         }
         system.push(terms, -value - owed, STRONG, ());

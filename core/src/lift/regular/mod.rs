@@ -11,8 +11,10 @@
 mod common;
 mod concede;
 mod draft;
+mod faults;
 mod fit;
 mod order;
+mod prisms;
 mod problem;
 mod redraw;
 mod report;
@@ -30,6 +32,7 @@ use super::{Lift, LiftError, LiftMethod, LiftOptions, solve};
 use crate::drawing::{Drawing, Projection};
 use crate::identify::Face;
 use draft::Draft;
+use faults::Faults;
 
 /// A miss of this many errors counts no more than one of so many.
 const WILD: f64 = 5.0;
@@ -42,11 +45,18 @@ const FREEDOM: f64 = 3.0;
 const OPEN: f64 = 100.0;
 const MOST_OPEN: f64 = 1000.0;
 
-/// What two neighbouring faces in one plane cost: the flat drawing fits itself.
+/// What two neighbouring faces in one plane cost: the flat drawing fits itself. An edge that vanishes
+/// and a face that crosses itself cost as much, as no solid has them.
 const FLAT: f64 = 30.0;
+
+/// What a drawing costs that is flat as a whole.
+const SHEET: f64 = 3000.0;
 
 /// Sine of the angle below which neighbouring planes are one.
 const BENT: f64 = 0.02;
+
+/// Sine of the angle within which the axes of two readings are the same.
+const TWIN: f64 = 0.02;
 
 /// A reading is not doubted if its fit is no more than so many times as inexact as its directions,
 /// conditions miss by less than this, and that share of the planes and cylinders is square.
@@ -80,6 +90,7 @@ pub(super) fn lift(
         }
     };
     let mut tried: Vec<Attempt> = Vec::new();
+    let mut seen: Vec<Directions> = Vec::new();
     let mut refusal = exact();
     for reading in readings {
         let reading = if options.flip {
@@ -88,6 +99,10 @@ pub(super) fn lift(
             reading
         };
         let drawn = recognised(drawing, reading.precision);
+        let reading = prisms::completed(&drawn, faces, reading);
+        if seen.iter().any(|other| is_same(other, &reading)) {
+            continue;
+        }
         match attempt(&drawn, faces, &reading) {
             Ok(found) => {
                 let sure = found.is_sure();
@@ -98,9 +113,13 @@ pub(super) fn lift(
             }
             Err(error) => refusal = error,
         }
+        seen.push(reading);
     }
     // All are compared at one level of noise, which what is flat does not tell.
-    let told = tried.iter().filter(|a| a.flat == 0).map(|a| a.noise);
+    let told = tried
+        .iter()
+        .filter(|a| a.flat == 0 && !a.faults.flat)
+        .map(|a| a.noise);
     let noise = told
         .chain(tried.iter().map(|a| 10.0 * a.noise))
         .fold(f64::INFINITY, f64::min);
@@ -108,6 +127,17 @@ pub(super) fn lift(
         .into_iter()
         .min_by(|a, b| a.cost(noise).total_cmp(&b.cost(noise)));
     best.map(|found| found.lift).ok_or(refusal)
+}
+
+/// Whether two readings place the same edges and circles along nearly the same axes.
+fn is_same(a: &Directions, b: &Directions) -> bool {
+    a.precision == b.precision
+        && a.axes.len() == b.axes.len()
+        && a.axes.iter().zip(&b.axes).all(|(p, q)| {
+            p.edges == q.edges
+                && p.circles == q.circles
+                && p.direction.cross(q.direction).length() < TWIN
+        })
 }
 
 /// Whether a drawing may be inexact, from its lift as it is drawn.
@@ -135,6 +165,8 @@ struct Attempt {
     freedom: usize,
     /// Edges between planes that are one.
     flat: usize,
+    /// What no solid has.
+    faults: Faults,
     /// Share of the surfaces that are along known directions of a whole frame.
     square: f64,
 }
@@ -145,13 +177,15 @@ impl Attempt {
         let misses = self.misses.iter().map(|m| (m / noise).min(WILD).powi(2));
         misses.sum::<f64>()
             + (OPEN * self.violation / noise).min(MOST_OPEN)
-            + FLAT * self.flat as f64
+            + FLAT * (self.flat + self.faults.vanished.len() + self.faults.tangled.len()) as f64
+            + if self.faults.flat { SHEET } else { 0.0 }
             + FREEDOM * self.freedom as f64
     }
 
     /// Whether no other reading need be tried.
     fn is_sure(&self) -> bool {
-        self.fits && self.flat == 0 && self.violation < CLOSED && self.square > SQUARE
+        let sound = self.flat == 0 && self.faults.count() == 0 && !self.faults.flat;
+        self.fits && sound && self.violation < CLOSED && self.square > SQUARE
     }
 }
 
@@ -170,6 +204,7 @@ fn attempt(drawing: &Drawing, faces: &[Face], reading: &Directions) -> Result<At
         violation: fitted.violation,
         freedom: draft.freedom(),
         flat: flat(&draft),
+        faults: Faults::of(&draft),
         square: if reading.is_frame() {
             draft.square_share()
         } else {

@@ -5,9 +5,8 @@
 //! Where edges of a face cross, the planes beside it that are nearly at one height change places,
 //! one pair after the other, as long as fewer edges cross then.
 
-use glam::{DVec2, DVec3};
-
 use super::draft::Draft;
+use super::faults::Faults;
 use super::fit::Fitted;
 use super::problem::{Condition, Shape};
 use super::snaps::BROKEN;
@@ -21,15 +20,12 @@ const LEAST: f64 = 0.5;
 /// Changes that are tried.
 const TRIES: usize = 16;
 
-/// Edges closer than this touch, in sizes of the drawing.
-const TOUCH: f64 = 1e-7;
-
 /// Changes the places of planes until no edges of a face cross, if it can.
 pub(super) fn untangle(draft: &mut Draft<'_, '_>, mut fitted: Fitted) -> Fitted {
-    let mut tangled = tangled(draft);
+    let mut faults = Faults::of(draft);
     let mut tries = 0;
     let mut done: Vec<[usize; 2]> = Vec::new();
-    while let Some(pair) = candidates(draft, &tangled)
+    while let Some(pair) = candidates(draft, &faults)
         .into_iter()
         .find(|p| !done.contains(p))
         .filter(|_| tries < TRIES)
@@ -39,13 +35,12 @@ pub(super) fn untangle(draft: &mut Draft<'_, '_>, mut fitted: Fitted) -> Fitted 
         let before = (draft.problem.clone(), draft.start.clone());
         exchange(draft, pair);
         let refit = draft.fit();
-        let now = self::tangled(draft);
+        let now = Faults::of(draft);
         match refit {
             Ok(new)
-                if new.violation < BROKEN.max(fitted.violation)
-                    && count(&now) < count(&tangled) =>
+                if new.violation < BROKEN.max(fitted.violation) && now.count() < faults.count() =>
             {
-                (fitted, tangled) = (new, now);
+                (fitted, faults) = (new, now);
             }
             _ => (draft.problem, draft.start) = before,
         }
@@ -53,69 +48,10 @@ pub(super) fn untangle(draft: &mut Draft<'_, '_>, mut fitted: Fitted) -> Fitted 
     fitted
 }
 
-fn count(tangled: &[(usize, usize)]) -> usize {
-    tangled.iter().map(|t| t.1).sum()
-}
-
-/// Planar faces of which edges cross, with the number of crossings.
-fn tangled(draft: &Draft<'_, '_>) -> Vec<(usize, usize)> {
-    let faces = 0..draft.sheet.faces.len();
-    faces
-        .filter(|&f| draft.is_plane(draft.body_of[f]))
-        .map(|f| (f, crossings(draft, f)))
-        .filter(|c| c.1 > 0)
-        .collect()
-}
-
-/// Pairs of straight edges of a planar face that cross, touch or lie on each other.
-fn crossings(draft: &Draft<'_, '_>, face: usize) -> usize {
-    let dir = draft.problem.bodies[draft.body_of[face]].dir;
-    let normal = draft.problem.direction(dir, &draft.problem.x);
-    let (u, w) = normal.any_orthonormal_pair();
-    let flat = |p: DVec3| DVec2::new(p.dot(u), p.dot(w));
-    let edges = draft.sheet.edges_of(face).iter();
-    let straight: Vec<([usize; 2], [DVec2; 2])> = edges
-        .filter(|&&e| draft.sheet.is_straight(e))
-        .map(|&e| {
-            let v = draft.sheet.drawing.edges[e].v;
-            (v, v.map(|v| flat(draft.place(v))))
-        })
-        .collect();
-    let mut count = 0;
-    for (i, (v, [a, b])) in straight.iter().enumerate() {
-        for (w, [c, d]) in &straight[i + 1..] {
-            let shared = v.iter().find(|x| w.contains(x));
-            count += usize::from(match shared {
-                Some(s) => {
-                    // Neighbours may lie on each other.
-                    let p = if v[0] == *s { *b - *a } else { *a - *b };
-                    let q = if w[0] == *s { *d - *c } else { *c - *d };
-                    let sine = p.perp_dot(q) / (p.length() * q.length());
-                    sine.abs() < 1e-6 && p.dot(q) > 0.0
-                }
-                None => meet([*a, *b], [*c, *d]),
-            });
-        }
-    }
-    count
-}
-
-/// Whether two segments cross or touch.
-fn meet([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> bool {
-    let side = |p: DVec2, q: DVec2, r: DVec2| (q - p).normalize_or_zero().perp_dot(r - p);
-    let across = side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0;
-    let on = |p: DVec2, q: DVec2, r: DVec2| {
-        let length = p.distance(q);
-        let along = (q - p).normalize_or_zero().dot(r - p);
-        side(p, q, r).abs() < TOUCH && along > -TOUCH && along < length + TOUCH
-    };
-    across || on(a, b, c) || on(a, b, d) || on(c, d, a) || on(c, d, b)
-}
-
 /// Pairs of parallel planes beside tangled faces that are nearly at one height, the closest first.
-fn candidates(draft: &Draft<'_, '_>, tangled: &[(usize, usize)]) -> Vec<[usize; 2]> {
+fn candidates(draft: &Draft<'_, '_>, faults: &Faults) -> Vec<[usize; 2]> {
     let mut all: Vec<(f64, [usize; 2])> = Vec::new();
-    for &(face, _) in tangled {
+    for &(face, _) in &faults.tangled {
         let mut beside: Vec<usize> = draft
             .sheet
             .edges_of(face)

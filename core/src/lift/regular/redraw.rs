@@ -120,7 +120,7 @@ fn curves(draft: &Draft<'_, '_>, vertices: &[DVec2]) -> Vec<Vec<DVec2>> {
 }
 
 /// The point of two surfaces next to a point.
-fn both(start: DVec3, pair: &[Surface; 2]) -> DVec3 {
+pub(super) fn both(start: DVec3, pair: &[Surface; 2]) -> DVec3 {
     let mut p = start;
     for _ in 0..STEPS {
         let (g, h) = (pair[0].gradient(p), pair[1].gradient(p));

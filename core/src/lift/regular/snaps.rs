@@ -213,7 +213,8 @@ fn parallel(draft: &mut Draft<'_, '_>) -> bool {
     changed
 }
 
-/// Cylinders of one direction get one axis, and one radius.
+/// Cylinders of one direction get one axis, and one radius. The inside and the outside of a tube do not
+/// get both: a plane that cuts them has them as two.
 fn round(draft: &mut Draft<'_, '_>) -> bool {
     let limit = ERRORS * draft.noise;
     let mut changed = false;
@@ -229,10 +230,10 @@ fn round(draft: &mut Draft<'_, '_>) -> bool {
         let x = &draft.problem.x;
         let axis = draft.problem.direction(dir, x);
         let center = |at: usize| DVec3::new(x[at], x[at + 1], x[at + 2]);
-        let others = order[..i]
-            .iter()
-            .filter_map(|&o| cylinder(&draft.problem, o));
-        let others: Vec<(usize, usize, usize)> = others.collect();
+        let others = order[..i].iter();
+        let others: Vec<(usize, usize, usize, usize)> = others
+            .filter_map(|&o| cylinder(&draft.problem, o).map(|(d, p, r)| (d, p, r, o)))
+            .collect();
         let coaxial = others.iter().find(|o| {
             let along = draft.problem.direction(o.0, x).cross(axis).length() < SAME;
             let apart = (center(o.1) - center(place))
@@ -240,9 +241,13 @@ fn round(draft: &mut Draft<'_, '_>) -> bool {
                 .length();
             along && o.1 != place && apart < limit.min(0.3 * x[radius].max(x[o.2]))
         });
+        let place_then = coaxial.map_or(place, |o| o.1);
         let equal = others.iter().find(|o| {
             let (r, s) = (x[radius].abs(), x[o.2].abs());
-            o.2 != radius && (r - s).abs() < limit.min(0.15 * r.min(s))
+            let are_one = others
+                .iter()
+                .any(|twin| twin.1 == place_then && twin.2 == o.2 && meet_one(draft, b, twin.3));
+            o.2 != radius && (r - s).abs() < limit.min(0.15 * r.min(s)) && !are_one
         });
         let (coaxial, equal) = (coaxial.map(|o| o.1), equal.map(|o| o.2));
         if coaxial.is_some() || equal.is_some() {
@@ -254,6 +259,22 @@ fn round(draft: &mut Draft<'_, '_>) -> bool {
         }
     }
     changed
+}
+
+/// Whether a third body is beside both.
+fn meet_one(draft: &Draft<'_, '_>, a: usize, b: usize) -> bool {
+    let beside = |own: usize| -> Vec<usize> {
+        let edges = 0..draft.sheet.drawing.edges.len();
+        let pairs = edges.filter_map(|e| draft.beside(e));
+        let other = |[p, q]: [usize; 2]| match (p == own, q == own) {
+            (true, false) => Some(q),
+            (false, true) => Some(p),
+            _ => None,
+        };
+        pairs.filter_map(other).collect()
+    };
+    let of_a = beside(a);
+    beside(b).iter().any(|c| of_a.contains(c))
 }
 
 /// Direction, place and radius of a cylinder.

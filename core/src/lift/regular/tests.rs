@@ -1,9 +1,9 @@
 use glam::{DVec2, DVec3};
 
 use crate::Progress;
-use crate::drawing::Drawing;
+use crate::drawing::{Curve2, Drawing, SurfaceKind};
 use crate::identify::Face;
-use crate::lift::testing::{extrusion, turned};
+use crate::lift::testing::{Scene, extrusion, turned};
 use crate::lift::{Lift, LiftMethod, LiftOptions, Surface, lift};
 
 /// A bracket: all its angles are right.
@@ -16,7 +16,7 @@ const BRACKET: [[f64; 2]; 6] = [
     [0.0, 1.1],
 ];
 
-/// Moves the vertices of a drawing of straight edges by about a share of its size.
+/// Moves the vertices of a drawing by about a share of its size, and curves with their ends.
 fn shaken(drawing: &Drawing, share: f64, seed: u64) -> Drawing {
     let mut state = seed;
     let mut unit = || {
@@ -27,13 +27,23 @@ fn shaken(drawing: &Drawing, share: f64, seed: u64) -> Drawing {
     };
     let mut drawing = drawing.clone();
     let size = drawing.size();
+    let mut steps = Vec::new();
     for p in &mut drawing.vertices {
         // A sum of even numbers is nearly normal.
         let mut normal = || (0..12).map(|_| unit()).sum::<f64>() - 6.0;
-        *p += DVec2::new(normal(), normal()) * share * size;
+        let step = DVec2::new(normal(), normal()) * share * size;
+        steps.push(step);
+        *p += step;
     }
     for edge in &mut drawing.edges {
-        edge.points = edge.v.map(|v| drawing.vertices[v]).to_vec();
+        let last = edge.points.len() - 1;
+        let [from, to] = edge.v.map(|v| steps[v]);
+        for (i, p) in edge.points.iter_mut().enumerate() {
+            *p += from.lerp(to, i as f64 / last as f64);
+        }
+        if last > 1 {
+            edge.curve = Curve2::recognise(&edge.points);
+        }
     }
     drawing
 }
@@ -97,4 +107,47 @@ fn brackets_by_hand_are_made_exact() {
     let exact = exact.count();
     println!("{exact} of {DRAWN}");
     assert!(exact * 100 >= 95 * DRAWN, "{exact}");
+}
+
+/// A plate whose thickness is a few errors keeps it: no reading that lays all in one plane is taken.
+#[test]
+fn thin_plates_by_hand_do_not_become_flat() {
+    const DRAWN: u64 = 60;
+    let (drawing, faces) = extrusion(turned(0.6, 0.7, 0.05), &BRACKET, 0.06);
+    let thick = |&seed: &u64| {
+        let found = lifted(&shaken(&drawing, 0.005, seed), &faces);
+        let [bottom, top] = [faces.len() - 2, faces.len() - 1].map(|f| found.surfaces[f]);
+        let v = faces[faces.len() - 2].loops[0][0].edge();
+        let regular = found.regular.as_ref().unwrap();
+        let v = drawing.edges[v].v[0];
+        let p = regular.vertices[v].extend(found.depths[v]);
+        bottom.distance(p).abs() < 1e-9 && (0.01..0.2).contains(&top.distance(p).abs())
+    };
+    let thick = (0..DRAWN).filter(thick).count();
+    println!("{thick} of {DRAWN}");
+    assert!(thick as u64 * 100 >= 90 * DRAWN, "{thick}");
+}
+
+/// The inside and the outside of a tube with a thin wall stay two cylinders around one axis.
+#[test]
+fn thin_tubes_by_hand_keep_their_walls() {
+    const DRAWN: u64 = 20;
+    let mut scene = Scene::new(turned(0.6, 0.7, 0.05));
+    let [low, high] = scene.wall(DVec3::ZERO, DVec3::Z, 0.6);
+    let [low_inside, high_inside] = scene.wall(DVec3::ZERO, DVec3::Z, 0.58);
+    scene.face(SurfaceKind::Plane, &[low, low_inside]);
+    scene.face(SurfaceKind::Plane, &[high, high_inside]);
+    let (drawing, faces) = scene.finish();
+    let has_wall = |&seed: &u64| {
+        let found = lifted(&shaken(&drawing, 0.003, seed), &faces);
+        let radius = |s: &Surface| match *s {
+            Surface::Cylinder { radius, .. } => Some(radius),
+            _ => None,
+        };
+        let radii: Vec<f64> = found.surfaces.iter().filter_map(radius).collect();
+        radii.len() == 4 && (radii[0] - radii[2]).abs() > 1e-3
+    };
+    let with_wall = (0..DRAWN).filter(has_wall).count();
+    println!("{with_wall} of {DRAWN}");
+    assert!(with_wall as u64 * 100 >= 80 * DRAWN, "{with_wall}");
 }

@@ -11,6 +11,7 @@ mod l1;
 mod normal;
 mod null_space;
 
+pub(crate) use normal::Pattern;
 pub use null_space::NullSpace;
 
 use super::LiftError;
@@ -172,6 +173,23 @@ impl<T> System<T> {
     pub fn minimise(&self, active: &[bool]) -> Result<Vec<f64>, LiftError> {
         self.check()?;
         normal::solve(self, active)
+    }
+
+    /// The pattern of the rows that `active` marks, for [`minimise_as`](Self::minimise_as).
+    pub(crate) fn pattern(&self, active: &[bool]) -> Result<Pattern, LiftError> {
+        self.check()?;
+        Pattern::new(self, active)
+    }
+
+    /// As [`minimise`](Self::minimise), with the pattern of these rows or of a system whose rows
+    /// name the same unknowns: much of the work is done then.
+    pub(crate) fn minimise_as(
+        &self,
+        active: &[bool],
+        pattern: &Pattern,
+    ) -> Result<Vec<f64>, LiftError> {
+        self.check()?;
+        normal::solve_as(self, active, pattern)
     }
 
     /// The null space of all rows alone; weights play no part in it.

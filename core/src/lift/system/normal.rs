@@ -1,8 +1,8 @@
 //! Least squares through scaled normal equations and a sparse Cholesky factor.
 
 use faer::linalg::solvers::Solve;
-use faer::sparse::linalg::solvers::Llt;
-use faer::sparse::{SparseColMat, Triplet};
+use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
+use faer::sparse::{Argsort, Pair, SparseColMat, SymbolicSparseColMat};
 use faer::{Mat, Side};
 
 use super::{LiftError, NullSpace, Row, System};
@@ -25,9 +25,51 @@ const BLOCK: usize = 6;
 /// Length below which a vector of the iterated block is no null vector.
 const NULL_LENGTH: f64 = 1e-3;
 
+/// Where the normal matrix of a system has coefficients, and in which order its unknowns are
+/// eliminated: the same for all systems whose rows name the same unknowns.
+#[derive(Debug, Clone)]
+pub(crate) struct Pattern {
+    places: SymbolicSparseColMat<usize>,
+    order: Argsort<usize>,
+    /// Number of coefficients before those of one place are summed.
+    count: usize,
+    llt: SymbolicLlt<usize>,
+}
+
+impl Pattern {
+    pub(super) fn new<T>(system: &System<T>, active: &[bool]) -> Result<Self, LiftError> {
+        let n = system.unknowns();
+        let mut pairs: Vec<_> = (0..n).map(|i| Pair::new(i, i)).collect();
+        for row in used(system, active) {
+            for (k, &(i, _)) in row.terms.iter().enumerate() {
+                pairs.extend(row.terms[..=k].iter().map(|&(j, _)| Pair::new(i, j)));
+            }
+        }
+        let (places, order) = SymbolicSparseColMat::try_new_from_indices(n, n, &pairs)
+            .map_err(|e| LiftError::Solver(format!("{e:?}")))?;
+        let llt = SymbolicLlt::try_new(places.as_ref(), Side::Lower)
+            .map_err(|e| LiftError::Solver(format!("{e:?}")))?;
+        Ok(Self {
+            places,
+            order,
+            count: pairs.len(),
+            llt,
+        })
+    }
+}
+
 /// Least-squares solution over the rows that `active` marks.
 pub(super) fn solve<T>(system: &System<T>, active: &[bool]) -> Result<Vec<f64>, LiftError> {
-    let factor = Factor::new(system, active, |row| row.weight)?;
+    solve_as(system, active, &Pattern::new(system, active)?)
+}
+
+/// The same for a pattern that is known.
+pub(super) fn solve_as<T>(
+    system: &System<T>,
+    active: &[bool],
+    pattern: &Pattern,
+) -> Result<Vec<f64>, LiftError> {
+    let factor = Factor::new(system, active, pattern, |row| row.weight)?;
     let n = system.unknowns();
     let mut x = vec![0.0; n];
     for _ in 0..=REFINEMENTS {
@@ -61,7 +103,8 @@ pub(super) fn null_space<T>(system: &System<T>, active: &[bool]) -> Result<NullS
             0.0
         }
     };
-    Ok(Factor::new(system, active, unit)?.null_space())
+    let pattern = Pattern::new(system, active)?;
+    Ok(Factor::new(system, active, &pattern, unit)?.null_space())
 }
 
 fn used<'a, T>(system: &'a System<T>, active: &'a [bool]) -> impl Iterator<Item = &'a Row<T>> {
@@ -81,6 +124,7 @@ impl Factor {
     fn new<T>(
         system: &System<T>,
         active: &[bool],
+        pattern: &Pattern,
         weight: impl Fn(&Row<T>) -> f64,
     ) -> Result<Self, LiftError> {
         let n = system.unknowns();
@@ -94,19 +138,23 @@ impl Factor {
             .iter()
             .map(|&d| if d > 0.0 { d.sqrt().recip() } else { 1.0 })
             .collect();
-        let mut triplets: Vec<_> = (0..n).map(|i| Triplet::new(i, i, EPS)).collect();
+        let mut values = Vec::with_capacity(pattern.count);
+        values.resize(n, EPS);
         for row in used(system, active) {
             let w = weight(row).powi(2);
             for (k, &(i, a)) in row.terms.iter().enumerate() {
                 let scaled = w * a * scale[i];
                 let lower = row.terms[..=k].iter();
-                triplets.extend(lower.map(|&(j, b)| Triplet::new(i, j, scaled * b * scale[j])));
+                values.extend(lower.map(|&(j, b)| scaled * b * scale[j]));
             }
         }
-        let matrix = SparseColMat::try_new_from_triplets(n, n, &triplets)
-            .map_err(|e| LiftError::Solver(format!("{e:?}")))?;
-        let llt = matrix
-            .sp_cholesky(Side::Lower)
+        if values.len() != pattern.count {
+            return Err(LiftError::Solver("the rows have another pattern".into()));
+        }
+        let matrix =
+            SparseColMat::new_from_argsort(pattern.places.clone(), &pattern.order, &values)
+                .map_err(|e| LiftError::Solver(format!("{e:?}")))?;
+        let llt = Llt::try_new_with_symbolic(pattern.llt.clone(), matrix.as_ref(), Side::Lower)
             .map_err(|e| LiftError::Solver(format!("factorisation: {e:?}")))?;
         Ok(Self { llt, scale })
     }
