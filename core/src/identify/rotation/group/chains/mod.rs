@@ -214,7 +214,7 @@ fn over(shapes: &Shapes, outer: &Ring, inner: &Ring) -> bool {
     let [a, b] = [outer, inner].map(|r| &shapes.loops[r.outline]);
     let flat = |o: &Outline| o.kind == SurfaceKind::Plane && !o.curved && !o.fold;
     let one_place = match (outer.along, inner.along) {
-        (Some(s), Some(t)) => (s - t).abs() < shapes.tolerance,
+        (Some(s), Some(t)) => (s - t).abs() < shapes.slack(shapes.error),
         _ => false,
     };
     one_place
