@@ -33,7 +33,7 @@ pub(in crate::lift) fn trusted(sheet: &Sheet<'_>) -> Directions {
         let own = sheet.edges_of(face);
         if leaving.len() < sheet.corners[face].len()
             || !leaving.iter().all(follows)
-            || own.iter().any(|e| follows(e))
+            || own.iter().any(follows)
         {
             continue;
         }
