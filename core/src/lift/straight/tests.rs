@@ -66,7 +66,7 @@ fn edges_follow_axes_exactly_and_vertices_stay_near() {
 
 #[test]
 fn edges_aside_of_an_axis_together_are_let_go() {
-    // A hexagon whose sides are four degrees aside of two axes as they are drawn is no box.
+    // A small prism whose sides are turned four degrees away from the two axes.
     let turn = 4f64.to_radians();
     let corners: Vec<[f64; 2]> = [[0.0, 0.0], [0.4, 0.0], [0.4, 0.4], [0.0, 0.4]]
         .map(|[x, y]: [f64; 2]| {
@@ -94,6 +94,6 @@ fn edges_aside_of_an_axis_together_are_let_go() {
         .flat_map(|a| &a.edges)
         .filter(|e| **e >= first)
         .count();
-    // The four edges along the prism's own axis stay.
+    // The four edges along its height stay.
     assert!(taken <= 5, "{taken}");
 }

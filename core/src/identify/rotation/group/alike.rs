@@ -25,7 +25,7 @@ pub(super) fn alike(shapes: &Shapes) -> Vec<Vec<Twin>> {
 /// Part `q` as a copy of part `p`, if it is drawn as one.
 fn twin(shapes: &Shapes, p: usize, q: usize) -> Option<Twin> {
     let (a, b) = (&shapes.parts[p], &shapes.parts[q]);
-    let near = shapes.near;
+    let near = shapes.near();
     let by = b.low - a.low;
     if a.loops.len() != b.loops.len() || (b.high - a.high).distance(by) > near {
         return None;

@@ -53,7 +53,7 @@ impl Joiner<'_> {
     }
 
     fn same(&self, a: f64, b: f64) -> bool {
-        (a - b).abs() < self.shapes.near
+        (a - b).abs() < self.shapes.near()
     }
 
     /// Distance between the centres of two circles in their plane.

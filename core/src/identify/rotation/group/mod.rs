@@ -3,7 +3,7 @@
 //! Every loop is a face of its own at first. Lifting gives planar loops a plane and circles an
 //! axis, and each part of the drawing that shares no vertex with the others a depth of its own.
 //!
-//! 1. [`shapes`]: the loops as drawn and lifted, with the [`axis`] of circles,
+//! 1. [`shapes`]: the loops as drawn and lifted, [`tolerance`] how near is one, with the [`axis`] of circles,
 //!    and of circles that are [`oblique`],
 //! 2. [`links`]: pairs of loops that may be one face, and how far in depth each moves a part,
 //! 3. [`joins`]: links of a part that imply the same move support each other and make one join,
@@ -26,6 +26,7 @@ mod search;
 mod shapes;
 #[cfg(test)]
 mod tests;
+mod tolerance;
 mod trials;
 
 use crate::drawing::Graph;

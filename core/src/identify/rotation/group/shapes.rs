@@ -3,33 +3,11 @@
 use glam::{DVec2, DVec3};
 
 use super::axis::{AxisLine, axis_line, is_ring};
+use super::tolerance::squared;
 use crate::drawing::{Curve2, Drawing, Graph, SurfaceKind};
 use crate::identify::Face;
 use crate::lift::{Camera, Pieces, Tilt};
 use crate::polygon;
-
-/// Error of depth that is allowed, relative to the drawing's size.
-const SAME: f64 = 2e-3;
-
-/// Error of a place in the drawing that is allowed, relative to its size.
-const NEAR: f64 = 1e-3;
-
-/// Places that have nothing to do with each other are about so far apart, relative to the size.
-const CHANCE: f64 = 0.25;
-
-/// Both in errors of the drawing's coordinates.
-const ERRORS: f64 = 3.0;
-
-/// Sine of the angle between normals up to which planes are parallel, in an exact drawing and at
-/// most.
-const PARALLEL: f64 = 5e-3;
-const MOST: f64 = 0.15;
-
-/// Share of a normal towards the viewer that counts at least.
-const STEEPEST: f64 = 0.05;
-
-/// Share of a normal towards the viewer below which a plane is seen from its edge.
-const FLAT: f64 = 0.01;
 
 /// A loop.
 #[derive(Debug, Clone)]
@@ -89,10 +67,6 @@ pub(super) struct Shapes {
     pub(super) camera: Camera,
     /// Size of the drawing.
     pub(super) size: f64,
-    /// Difference of depth up to which two are one, if the drawing is exact.
-    tolerance: f64,
-    /// Distance in the drawing up to which two places are one.
-    pub(super) near: f64,
     /// Standard error of drawn coordinates.
     pub(super) error: f64,
 }
@@ -147,33 +121,8 @@ impl Shapes {
             own: pieces.axes.len(),
             camera: pieces.camera,
             size: drawing.size(),
-            tolerance: SAME * drawing.size(),
-            near: (NEAR * drawing.size()).max(ERRORS * pieces.precision),
             error: pieces.precision,
         }
-    }
-
-    /// Difference of depth up to which two are one, of which one is known to a standard error.
-    pub(super) fn slack(&self, error: f64) -> f64 {
-        self.tolerance.max(ERRORS * error)
-    }
-
-    /// How much two places that are one tell, beside an exact drawing: the larger the distance up to
-    /// which they are, the more are by chance.
-    pub(super) fn telling(&self) -> f64 {
-        (CHANCE * self.size / self.near).max(1.0).ln() / (CHANCE / NEAR).ln()
-    }
-
-    /// Distance from a drawn axis up to which a centre is on it.
-    pub(super) fn on_axis(&self) -> f64 {
-        2.0 * self.near
-    }
-
-    /// The planes of two loops, if they are parallel as far as the drawing tells.
-    pub(super) fn parallel(&self, a: &Outline, b: &Outline) -> Option<(Tilt, Tilt)> {
-        let (p, q) = (a.plane?, b.plane?);
-        let limit = (ERRORS * a.turn.hypot(b.turn)).clamp(PARALLEL, MOST);
-        (p.normal().cross(q.normal()).length() < limit).then_some((p, q))
     }
 
     /// The three axes of the drawing's frame, if it has one.
@@ -247,13 +196,6 @@ impl Outline {
         }
     }
 
-    /// Standard error of its depth if that of drawn coordinates is `error`: an error of a point is
-    /// one of its depth times the plane's slope, and the plane's is that of the mean of its corners.
-    pub(super) fn depth_error(&self, error: f64) -> f64 {
-        let steep = self.plane.map_or(1.0, |p| p.normal().z.abs().max(STEEPEST));
-        error / (steep * (self.corners.len().max(1) as f64).sqrt())
-    }
-
     /// Whether a drawn point is inside.
     pub(super) fn contains(&self, p: DVec2) -> bool {
         p.cmpge(self.low).all() && p.cmple(self.high).all() && polygon::contains(&self.polygon, p)
@@ -311,23 +253,6 @@ fn edge_depths(drawing: &Drawing, pieces: &Pieces, faces: &[Face]) -> Vec<Vec<f6
         all.push(edge.points.iter().enumerate().map(depth).collect());
     }
     all
-}
-
-/// A plane with the normal of the axis that its own is one with as far as the drawing tells, the
-/// same at a point.
-fn squared(plane: Tilt, pieces: &Pieces, turn: f64, at: DVec2) -> Tilt {
-    let limit = (ERRORS * turn).min(MOST);
-    let normal = plane.normal();
-    let off = |n: &DVec3| normal.cross(*n).length();
-    let nearest = pieces.axes.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
-    match nearest {
-        Some(n) if pieces.camera.is_parallel() && off(n) < limit && n.z.abs() > FLAT => {
-            let (a, b) = (n.x / n.z, n.y / n.z);
-            let c = -(plane.level(at) + a * at.x + b * at.y);
-            Tilt { a, b, c, ..plane }
-        }
-        _ => plane,
-    }
 }
 
 fn outline(

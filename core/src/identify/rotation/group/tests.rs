@@ -251,7 +251,7 @@ fn shaken(mut drawing: Drawing, share: f64) -> Drawing {
     drawing
 }
 
-/// A hole, and a pocket, each through a plane that is drawn by hand.
+/// A hole and a boss.
 #[test]
 fn loops_of_a_drawing_by_hand_are_grouped() {
     let hole = Feature {
