@@ -19,6 +19,7 @@ pub mod plan;
 mod polygon;
 mod progress;
 pub mod readings;
+mod scatter;
 mod sets;
 
 pub use error::Error;

@@ -6,8 +6,8 @@ use serde::Serialize;
 
 use super::measure::Measured;
 
-/// What a drawing is and how it was measured; times are in milliseconds, and what was not tried is
-/// `null`.
+/// What a drawing is and how it was measured. Times are in milliseconds; without `--solids` the figures
+/// of solids are left out, and with it those of a stage that failed are `null`.
 #[derive(Debug, Serialize)]
 pub(crate) struct Row<'a> {
     /// The drawing.

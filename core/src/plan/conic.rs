@@ -6,6 +6,7 @@ use glam::{DMat3, DVec3};
 
 use super::Curve3;
 use super::support::Support;
+use crate::scatter::Scatter;
 
 /// An ellipse `center + cos(t) major + sin(t) minor`; the axes are orthogonal.
 #[derive(Debug, Clone, Copy)]
@@ -231,21 +232,9 @@ pub(super) fn fit_plane(points: &[DVec3]) -> Option<(DVec3, DVec3, f64)> {
     if points.len() < 3 {
         return None;
     }
-    let middle = points.iter().sum::<DVec3>() / points.len() as f64;
-    let mut spread = DMat3::ZERO;
-    for p in points {
-        let d = *p - middle;
-        spread += DMat3::from_cols(d * d.x, d * d.y, d * d.z);
-    }
-    let trace = spread.x_axis.x + spread.y_axis.y + spread.z_axis.z;
-    // The eigenvector of the least eigenvalue, by inverse iteration. The shift keeps the matrix of
-    // an exact plane invertible.
-    let shifted = spread + DMat3::from_diagonal(DVec3::splat(1e-14 * trace));
-    let inverse = shifted.inverse();
-    let mut normal = DVec3::new(0.36, 0.48, 0.8);
-    for _ in 0..30 {
-        normal = (inverse * normal).try_normalize()?;
-    }
+    let scatter = Scatter::new(points);
+    let (spread, trace) = (scatter.matrix, scatter.trace());
+    let normal = scatter.normal()?;
     // On a line two eigenvalues are small, and the normal says nothing.
     let along = DMat3::from_cols(
         spread.x_axis - normal * normal.dot(spread.x_axis),
@@ -258,8 +247,10 @@ pub(super) fn fit_plane(points: &[DVec3]) -> Option<(DVec3, DVec3, f64)> {
     if product.is_nan() || product <= 1e-10 * trace * trace {
         return None;
     }
-    let distances = points.iter().map(|p| normal.dot(*p - middle).abs());
-    Some((middle, normal, distances.fold(0.0, f64::max)))
+    let distances = points
+        .iter()
+        .map(|p| normal.dot(*p - scatter.centroid).abs());
+    Some((scatter.centroid, normal, distances.fold(0.0, f64::max)))
 }
 
 #[cfg(test)]

@@ -1,10 +1,11 @@
 //! What no solid has, in a draft: edges whose ends are one point, faces whose outlines cross, and
 //! vertices that are all in one plane.
 
-use glam::{DMat3, DVec2, DVec3};
+use glam::{DVec2, DVec3};
 
 use super::draft::Draft;
 use super::redraw::both;
+use crate::scatter::Scatter;
 
 /// Edges closer than this touch, in sizes of the drawing.
 const TOUCH: f64 = 1e-7;
@@ -56,20 +57,9 @@ fn thickness(draft: &Draft<'_, '_>) -> f64 {
     let points: Vec<DVec3> = (0..draft.problem.points.len())
         .map(|p| draft.place(p))
         .collect();
-    let count = points.len().max(1) as f64;
-    let middle = points.iter().sum::<DVec3>() / count;
-    let spread = points.iter().fold(DMat3::ZERO, |sum, p| {
-        let d = *p - middle;
-        sum + DMat3::from_cols(d * d.x, d * d.y, d * d.z)
-    });
-    // The least eigenvalue, by inverse iteration.
-    let shifted = spread + DMat3::from_diagonal(DVec3::splat(1e-12 * count));
-    let inverse = shifted.inverse();
-    let mut normal = DVec3::new(0.5, 0.6, 0.7);
-    for _ in 0..60 {
-        normal = (inverse * normal).normalize_or(normal);
-    }
-    (normal.dot(spread * normal).max(0.0) / count).sqrt()
+    let scatter = Scatter::new(&points);
+    let squares = scatter.normal().map_or(0.0, |n| n.dot(scatter.matrix * n));
+    (squares.max(0.0) / points.len().max(1) as f64).sqrt()
 }
 
 /// Pairs of edges of a planar face that cross, touch or lie on each other.

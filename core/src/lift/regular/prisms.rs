@@ -165,21 +165,14 @@ mod tests {
     use super::*;
     use crate::lift::Camera;
     use crate::lift::directions::Axis;
+    use crate::lift::regular::tests::BRACKET;
     use crate::lift::testing::{extrusion, turned};
 
     /// A thin plate with a notch, and its reading: edges in its plane are right, those across it are
     /// said to follow the plate's first axis, or none.
     fn plate(wrong: bool) -> (Drawing, Vec<Face>, Directions, Vec<usize>) {
-        let corners = [
-            [0.0, 0.0],
-            [1.4, 0.0],
-            [1.4, 0.5],
-            [0.6, 0.5],
-            [0.6, 1.1],
-            [0.0, 1.1],
-        ];
         let turn = turned(0.6, 0.7, 0.05);
-        let (drawing, faces) = extrusion(turn, &corners, 0.02);
+        let (drawing, faces) = extrusion(turn, &BRACKET, 0.02);
         let axes = DVec3::AXES.map(|axis| turn * axis);
         let along = |e: usize| {
             let places = &drawing.truth.as_ref().unwrap().vertices3d;

@@ -241,12 +241,12 @@ fn round(draft: &mut Draft<'_, '_>) -> bool {
                 .length();
             along && o.1 != place && apart < limit.min(0.3 * x[radius].max(x[o.2]))
         });
-        let place_then = coaxial.map_or(place, |o| o.1);
+        let shared = coaxial.map_or(place, |o| o.1);
         let equal = others.iter().find(|o| {
             let (r, s) = (x[radius].abs(), x[o.2].abs());
             let are_one = others
                 .iter()
-                .any(|twin| twin.1 == place_then && twin.2 == o.2 && meet_one(draft, b, twin.3));
+                .any(|twin| twin.1 == shared && twin.2 == o.2 && meet_one(draft, b, twin.3));
             o.2 != radius && (r - s).abs() < limit.min(0.15 * r.min(s)) && !are_one
         });
         let (coaxial, equal) = (coaxial.map(|o| o.1), equal.map(|o| o.2));

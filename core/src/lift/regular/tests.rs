@@ -7,7 +7,7 @@ use crate::lift::testing::{Scene, extrusion, turned};
 use crate::lift::{Lift, LiftMethod, LiftOptions, Surface, lift};
 
 /// A bracket: all its angles are right.
-const BRACKET: [[f64; 2]; 6] = [
+pub(super) const BRACKET: [[f64; 2]; 6] = [
     [0.0, 0.0],
     [1.4, 0.0],
     [1.4, 0.5],

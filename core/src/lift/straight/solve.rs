@@ -36,7 +36,7 @@ const QUARTILE: f64 = 0.6745;
 /// Errors by which a vertex may be moved.
 const TORN: f64 = 4.0;
 
-/// Rounds of letting go, and the share of the conditions that may be let go at once.
+/// Rounds of letting go, and the most conditions that are let go in one.
 const ROUNDS: usize = 8;
 const AT_ONCE: usize = 16;
 

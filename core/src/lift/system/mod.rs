@@ -176,6 +176,9 @@ impl<T> System<T> {
     }
 
     /// The pattern of the rows that `active` marks, for [`minimise_as`](Self::minimise_as).
+    ///
+    /// # Errors
+    /// [`LiftError::Solver`] if a row names an unknown that there is not.
     pub(crate) fn pattern(&self, active: &[bool]) -> Result<Pattern, LiftError> {
         self.check()?;
         Pattern::new(self, active)
@@ -183,6 +186,9 @@ impl<T> System<T> {
 
     /// As [`minimise`](Self::minimise), with the pattern of these rows or of a system whose rows
     /// name the same unknowns: much of the work is done then.
+    ///
+    /// # Errors
+    /// As [`minimise`](Self::minimise), and [`LiftError::Solver`] for a pattern of other rows.
     pub(crate) fn minimise_as(
         &self,
         active: &[bool],

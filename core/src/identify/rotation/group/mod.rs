@@ -3,8 +3,8 @@
 //! Every loop is a face of its own at first. Lifting gives planar loops a plane and circles an
 //! axis, and each part of the drawing that shares no vertex with the others a depth of its own.
 //!
-//! 1. [`shapes`]: the loops as drawn and lifted, [`tolerance`] how near is one, with the [`axis`] of circles,
-//!    and of circles that are [`oblique`],
+//! 1. [`shapes`]: the loops as drawn and lifted, with the [`axis`] of circles, and of circles that
+//!    are [`oblique`]; [`tolerance`]: how near is one,
 //! 2. [`links`]: pairs of loops that may be one face, and how far in depth each moves a part,
 //! 3. [`joins`]: links of a part that imply the same move support each other and make one join,
 //! 4. [`body`]: whether a part so placed is a pocket, a hole or a boss that a solid can have,
