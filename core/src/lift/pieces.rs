@@ -80,6 +80,12 @@ impl Tilt {
         self.camera.level(-(self.a * p.x + self.b * p.y + self.c))
     }
 
+    /// The point of the plane that is drawn at `p`.
+    pub(crate) fn place(&self, p: DVec2) -> DVec3 {
+        let height = -(self.a * p.x + self.b * p.y + self.c);
+        self.camera.place(p, self.camera.depth(height))
+    }
+
     /// Unit normal; of which side is left open.
     pub(crate) fn normal(&self) -> DVec3 {
         let normal = self.camera.normal([self.a, self.b, self.c], DVec2::ZERO);

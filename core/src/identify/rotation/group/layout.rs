@@ -27,29 +27,22 @@ impl Joiner<'_> {
         (least.sqrt() / b.area.abs().sqrt().max(1e-6 * self.shapes.size)).min(2.0)
     }
 
-    /// Extent of a loop along the two axes of its plane, if it is normal to the third: low, high.
-    fn extent(&self, outline: usize) -> Option<(DVec2, DVec2)> {
+    /// Extent of a loop in the plane of the one that it may share a face with, along the two axes of
+    /// that plane if it is normal to the third: low, high.
+    fn extent(&self, outer: usize, outline: usize) -> Option<(DVec2, DVec2)> {
         let [x, y, z] = self.shapes.frame()?;
-        let outline = &self.shapes.loops[outline];
-        let plane = outline.plane?;
-        if !self.shapes.camera.is_parallel() {
-            return None;
-        }
+        let plane = self.shapes.loops[outer].plane?;
         let normal = plane.normal();
         let pairs = [(x, [y, z]), (y, [x, z]), (z, [x, y])];
         let (_, [u, v]) = pairs
             .into_iter()
             .find(|(n, _)| n.dot(normal).abs() > 0.999)?;
-        let (u, v) = (u.truncate(), v.truncate());
-        let det = u.perp_dot(v);
-        let ends = outline
-            .polygon
-            .iter()
-            .map(|p| DVec2::new(p.perp_dot(v), u.perp_dot(*p)) / det)
-            .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(l, h), p| {
-                (l.min(p), h.max(p))
-            });
-        Some(ends)
+        let places = self.shapes.loops[outline].polygon.iter().map(|p| {
+            let place = plane.place(*p);
+            DVec2::new(place.dot(*u), place.dot(*v))
+        });
+        let start = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+        Some(places.fold(start, |(l, h), p| (l.min(p), h.max(p))))
     }
 
     fn same(&self, a: f64, b: f64) -> bool {
@@ -73,8 +66,10 @@ impl Joiner<'_> {
         {
             return 2.0 * self.shapes.telling();
         }
-        let (Some((a, b)), Some((c, d))) = (self.extent(link.outer), self.extent(link.inner))
-        else {
+        let (Some((a, b)), Some((c, d))) = (
+            self.extent(link.outer, link.outer),
+            self.extent(link.outer, link.inner),
+        ) else {
             return 0.0;
         };
         let (p, q) = (a + b, c + d);
@@ -94,12 +89,12 @@ impl Joiner<'_> {
         {
             return 2.0 * self.shapes.telling();
         }
-        let Some((a, b)) = self.extent(link.inner) else {
+        let Some((a, b)) = self.extent(link.outer, link.inner) else {
             return 0.0;
         };
         let mut hits = [false; 2];
         for &other in state.inner[link.outer].iter().filter(|o| **o != link.inner) {
-            let Some((c, d)) = self.extent(other) else {
+            let Some((c, d)) = self.extent(link.outer, other) else {
                 continue;
             };
             for (k, hit) in hits.iter_mut().enumerate() {
