@@ -103,8 +103,9 @@ impl Shapes {
             let places = [0.0, 0.27, 0.5, 0.73, 1.0];
             let picks = if edge.is_straight() {
                 let (a, b) = (edge.points[0], edge.points[last]);
-                let (y, z) = (depths[e][0], depths[e][last]);
-                places.map(|t| a.lerp(b, t).extend(y + (z - y) * t))
+                let [y, z] = edge.v.map(|v| pieces.height(v));
+                let level = |t: f64| pieces.camera.level(y + (z - y) * t);
+                places.map(|t| a.lerp(b, t).extend(level(t)))
             } else {
                 let nearest = places.map(|t| (last as f64 * t).round() as usize);
                 nearest.map(|k| edge.points[k].extend(depths[e][k]))
