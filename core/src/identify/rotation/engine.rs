@@ -1,5 +1,6 @@
 //! The engine: score, decode, read off loops.
 
+use super::canonical::Canonical;
 use super::frame::Frame;
 use super::reading::{Doubts, Reader};
 use super::variants::variants;
@@ -59,10 +60,19 @@ impl Engine for RotationEngine {
     }
 
     fn identify(&self, drawing: &Drawing, progress: Progress<'_>) -> Result<Identification> {
+        check_degrees(&Graph::new(drawing))?;
+        let canonical = Canonical::new(drawing);
+        let found = self.found(&canonical.drawing, progress)?;
+        Ok(canonical.as_given(found))
+    }
+}
+
+impl RotationEngine {
+    /// The faces of a drawing, none of whose vertices is refused.
+    fn found(&self, drawing: &Drawing, progress: Progress<'_>) -> Result<Identification> {
         let directions = Readings::new(drawing);
         let drawing = directions.straight().unwrap_or(drawing);
         let graph = Graph::new(drawing);
-        check_degrees(&graph)?;
         progress.report(Stage::Identify, 0.0)?;
         let triples = Triples::new(&graph);
         let scores = self.scorer.score(drawing, &graph, &triples, progress)?;
@@ -107,7 +117,7 @@ impl Engine for RotationEngine {
         let alternatives = candidates.map(|(_, c)| c).collect();
         progress.report(Stage::Identify, 1.0)?;
         Ok(Identification {
-            engine: self.name().to_owned(),
+            engine: EngineKind::Rotation.name().to_owned(),
             faces,
             alternatives,
             notices,

@@ -2,6 +2,7 @@
 //! as its orbits, and faces as groups of loops that lie on one surface.
 
 mod calibration;
+mod canonical;
 mod crossing;
 mod cuts;
 mod cycles;

@@ -7,6 +7,7 @@ use super::body::{Place, fit};
 use super::links::{Link, LinkKind};
 use super::score::{COUNT, Feature, JoinScorer, Row};
 use super::shapes::Shapes;
+use super::volume::Rays;
 
 /// One way to join a part: a place, and the links that it makes true.
 #[derive(Debug, Clone, PartialEq)]
@@ -85,6 +86,7 @@ pub(super) struct Joiner<'a> {
     pub(super) main: usize,
     /// For each part those that look like it.
     pub(super) alike: Vec<Vec<Twin>>,
+    pub(super) rays: Rays,
     /// Pairs of loops, outer and inner, that have a link.
     pub(super) joined: BTreeSet<(usize, usize)>,
 }
@@ -223,6 +225,8 @@ impl Joiner<'_> {
             );
         }
         set(Feature::Clearance, mean(&|l| self.clearance(l)));
+        set(Feature::Round, mean(&|l| self.roundness(l)));
+        set(Feature::Thin, mean(&|l| self.thinness(l)));
         set(Feature::Centred, mean(&|l| self.centred(l)));
         set(Feature::Aligned, mean(&|l| self.aligned(l, state)));
         set(Feature::Alike, self.as_twins(part, list, state));
@@ -253,6 +257,10 @@ impl Joiner<'_> {
             set(Feature::Right, right);
             set(Feature::Wrong, wrong);
             set(Feature::Pierced, fit.pierced);
+            let [inside, outside] =
+                self.rays
+                    .inside_and_outside(self.shapes, part, place.shift, &state.placed);
+            set(Feature::Astray, share(if boss { inside } else { outside }));
         }
         row
     }

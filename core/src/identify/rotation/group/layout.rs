@@ -4,7 +4,19 @@ use glam::DVec2;
 
 use super::body::Place;
 use super::joins::{Joiner, State};
-use super::links::Link;
+use super::links::{Link, LinkKind};
+
+/// How fast thin walls become likelier as they grow, for a share of the face's extent.
+const WALLS: f64 = 20.0;
+
+/// Largest denominator of a round fraction.
+const ROUNDEST: u32 = 20;
+
+/// The least denominator of a fraction that a number is within an error.
+fn denominator(x: f64, error: f64) -> Option<f64> {
+    let mut all = (1..=ROUNDEST).map(f64::from);
+    all.find(|n| (x * n - (x * n).round()).abs() < error * n)
+}
 
 impl Joiner<'_> {
     pub(super) fn clearance(&self, link: &Link) -> f64 {
@@ -45,6 +57,46 @@ impl Joiner<'_> {
         Some(places.fold(start, |(l, h), p| (l.min(p), h.max(p))))
     }
 
+    /// Parts are laid out in round numbers, so that the places of walls and middles are round
+    /// fractions of the face's extents. For each of the two directions the log-odds of the roundest
+    /// against chance.
+    pub(super) fn roundness(&self, link: &Link) -> f64 {
+        if link.kind != LinkKind::Coplanar {
+            return 0.0;
+        }
+        let [Some((a, b)), Some((c, d))] =
+            [link.outer, link.inner].map(|i| self.extent(link.outer, i))
+        else {
+            return 0.0;
+        };
+        let evidence = |k: usize| {
+            let whole = b[k] - a[k];
+            let error = self.shapes.exactly() / whole;
+            let at = |x: f64| {
+                let n = denominator((x - a[k]) / whole, error);
+                n.map_or(0.0, |n| -(2.0 * error * n * n).ln())
+            };
+            let places = [c[k], (c[k] + d[k]) / 2.0, d[k]];
+            places.into_iter().map(at).fold(0.0, f64::max)
+        };
+        evidence(0) + evidence(1)
+    }
+
+    /// How thin the wall between a loop and the outline of its face is, in their plane along its
+    /// axes: 1 if there is none, falling with its share of the face's extent.
+    pub(super) fn thinness(&self, link: &Link) -> f64 {
+        if link.kind != LinkKind::Coplanar {
+            return 0.0;
+        }
+        let [Some((a, b)), Some((c, d))] =
+            [link.outer, link.inner].map(|i| self.extent(link.outer, i))
+        else {
+            return 0.0;
+        };
+        let thin = |k: usize| (c[k] - a[k]).min(b[k] - d[k]) / (b[k] - a[k]);
+        (-WALLS * thin(0).min(thin(1)).max(0.0)).exp()
+    }
+
     fn same(&self, a: f64, b: f64) -> bool {
         (a - b).abs() < self.shapes.near()
     }
@@ -66,10 +118,9 @@ impl Joiner<'_> {
         {
             return 2.0 * self.shapes.telling();
         }
-        let (Some((a, b)), Some((c, d))) = (
-            self.extent(link.outer, link.outer),
-            self.extent(link.outer, link.inner),
-        ) else {
+        let [Some((a, b)), Some((c, d))] =
+            [link.outer, link.inner].map(|i| self.extent(link.outer, i))
+        else {
             return 0.0;
         };
         let (p, q) = (a + b, c + d);
@@ -136,5 +187,18 @@ impl Joiner<'_> {
         } else {
             hits as f64 / count as f64
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn round_fractions_have_small_denominators() {
+        assert_eq!(denominator(0.3, 1e-4), Some(10.0));
+        assert_eq!(denominator(2.0 / 3.0 + 5e-5, 1e-4), Some(3.0));
+        assert_eq!(denominator(0.3003, 1e-4), None);
+        assert_eq!(denominator(f64::NAN, 1e-4), None);
     }
 }

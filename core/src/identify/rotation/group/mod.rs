@@ -7,7 +7,8 @@
 //!    are [`oblique`]; [`tolerance`]: how near is one,
 //! 2. [`links`]: pairs of loops that may be one face, and how far in depth each moves a part,
 //! 3. [`joins`]: links of a part that imply the same move support each other and make one join,
-//! 4. [`body`]: whether a part so placed is a pocket, a hole or a boss that a solid can have,
+//! 4. [`body`] and [`volume`]: whether a part so placed is a pocket, a hole or a boss that a solid can
+//!    have, and [`layout`]: whether it is where people put one,
 //! 5. [`score`]: how likely a join is,
 //! 6. [`search`]: the likeliest joins of all parts, and ranked alternatives,
 //! 7. [`chains`]: circles and silhouettes around one axis, matched all at once.
@@ -28,6 +29,7 @@ mod shapes;
 mod tests;
 mod tolerance;
 mod trials;
+mod volume;
 
 use crate::drawing::Graph;
 use crate::identify::Face;

@@ -15,6 +15,7 @@ use super::links::{Link, LinkKind};
 use super::score::JoinScorer;
 use super::shapes::Shapes;
 use super::trials::{Run, Step, push_trials};
+use super::volume::Rays;
 use crate::sets::Sets;
 
 /// Joins of a part that are kept.
@@ -63,6 +64,7 @@ impl<'a> Search<'a> {
                 scorer,
                 main: shapes.main_part().unwrap_or(0),
                 alike: alike(shapes),
+                rays: Rays::new(shapes),
                 joined: links.iter().map(|l| (l.outer, l.inner)).collect(),
             },
             own,

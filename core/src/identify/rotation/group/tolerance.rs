@@ -11,6 +11,9 @@ const SAME: f64 = 2e-3;
 /// Error of a place in an exact drawing that is allowed, relative to its size.
 const NEAR: f64 = 1e-3;
 
+/// Error of a place in an exact drawing that is usual, relative to its size.
+const EXACT: f64 = 5e-5;
+
 /// Standard errors that are allowed in a drawing by hand.
 const ERRORS: f64 = 3.0;
 
@@ -43,6 +46,11 @@ impl Shapes {
     /// which they are, the more are by chance.
     pub(super) fn telling(&self) -> f64 {
         (CHANCE * self.size / self.near()).max(1.0).ln() / (CHANCE / NEAR).ln()
+    }
+
+    /// Distance up to which two places are one that are told exactly.
+    pub(super) fn exactly(&self) -> f64 {
+        (EXACT * self.size).max(ERRORS * self.error)
     }
 
     /// Distance from a drawn axis up to which a centre is on it.
