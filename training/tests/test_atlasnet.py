@@ -15,9 +15,9 @@ pytest.importorskip("safetensors")
 from safetensors.numpy import load_file, save_file  # noqa: E402
 
 from faceformer_training.atlasnet.image import image  # noqa: E402
-from faceformer_training.atlasnet.model import AtlasConfig, AtlasNet, chamfer  # noqa: E402
+from faceformer_training.atlasnet.model import AtlasConfig, AtlasNet, chamfer, either_way  # noqa: E402
 from faceformer_training.atlasnet.points import aligned, sample, triangles  # noqa: E402
-from faceformer_training.atlasnet.train import TrainConfig, train  # noqa: E402
+from faceformer_training.atlasnet.train import TrainConfig, measure_last, mirrored, train  # noqa: E402
 
 ROOT = Path(__file__).parents[2]
 PROGRAM = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")) / "release" / "faceformer"
@@ -76,7 +76,31 @@ def test_both_forms_of_stl_are_read():
 def test_the_chamfer_distance_of_known_clouds():
     a = torch.tensor([[[0.0, 0, 0], [1, 0, 0]]])
     b = torch.tensor([[[0.0, 0, 0], [1, 2, 0], [0, 0, 3]]])
-    assert chamfer(a, b).tolist() == pytest.approx([(0 + 1) / 2 + (0 + 4 + 9) / 3])
+    squared, plain = chamfer(a, b)
+    assert squared.tolist() == pytest.approx([(0 + 1) / 2 + (0 + 4 + 9) / 3])
+    assert plain.tolist() == pytest.approx([(0 + 1) / 2 + (0 + 2 + 3) / 3], abs=1e-5)
+    # The mirror image in depth counts as well.
+    turned = either_way(a, b * torch.tensor([1, 1, -1]))
+    assert turned[0].tolist() == pytest.approx(squared.tolist())
+
+
+def test_gradients_of_the_chamfer_distance_are_those_of_all_distances():
+    random = torch.Generator().manual_seed(0)
+    a, b = (torch.rand(2, n, 3, generator=random) for n in (30, 40))
+    a.requires_grad_()
+    own = torch.autograd.grad(chamfer(a, b)[0].sum(), a)[0]
+    off = (a[:, :, None] - b[:, None]).square().sum(3)
+    whole = off.min(2).values.mean(1) + off.min(1).values.mean(1)
+    torch.testing.assert_close(own, torch.autograd.grad(whole.sum(), a)[0])
+
+
+def test_drawings_and_solids_are_mirrored_together():
+    images = torch.tensor([[[1.0, 0], [0, 0]], [[1, 0], [0, 0]]])
+    points = torch.tensor([[[-0.5, 0.5, 0.1]], [[-0.5, 0.5, 0.1]]])
+    which = torch.tensor([True, False])
+    images, points = mirrored(images, points, which)
+    assert images.tolist() == [[[0, 1], [0, 0]], [[1, 0], [0, 0]]]
+    assert points[:, 0, 0].tolist() == [0.5, -0.5]
 
 
 def test_the_network_has_resnets_and_atlasnets_sizes():
@@ -101,6 +125,7 @@ def test_training_learns_and_resumes(tmp_path):
         steps=30,
         batch=2,
         points=100,
+        mirror=True,
         validate_every=10,
         accelerator="cpu",
     )
@@ -108,6 +133,9 @@ def test_training_learns_and_resumes(tmp_path):
     rows = (tmp_path / "run/curve.csv").read_text().splitlines()
     losses = [float(row.split(",")[2]) for row in rows[1:]]
     assert len(losses) == 3 and losses[-1] < losses[0]
+    # The curve's last row is of the checkpoint.
+    last = measure_last(config, [str(path)])
+    assert last["squared_mean"] == pytest.approx(float(rows[-1].split(",")[3]), abs=2e-6)
     config.output = str(tmp_path / "parts")
     train(config, resume=False, stop=10)
     resumed = torch.load(train(config, resume=True), weights_only=True)["model"]

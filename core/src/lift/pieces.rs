@@ -9,7 +9,7 @@ use super::circle::DrawnCircle;
 use super::directions::Directions;
 use super::sheet::Sheet;
 use super::solve::{self, Solved};
-use super::straight::{ends, straightened};
+use super::straight::{Straight, ends, straightened};
 use super::{Camera, LiftError};
 use crate::drawing::Drawing;
 use crate::identify::Face;
@@ -19,33 +19,32 @@ const BENT: f64 = 0.02;
 
 /// A drawing with all readings of its directions; one by hand is made straight by each.
 pub(crate) struct Readings<'a> {
-    all: Vec<(Cow<'a, Drawing>, Directions)>,
-    /// Whether the drawing is by hand.
-    by_hand: bool,
+    drawing: &'a Drawing,
+    /// Of an exact drawing.
+    exact: Vec<Directions>,
+    /// Of one by hand.
+    straight: Vec<Straight>,
 }
 
 impl<'a> Readings<'a> {
     /// The readings of a drawing, none if nothing tells directions.
     pub(crate) fn new(drawing: &'a Drawing) -> Self {
-        let mut all: Vec<(Cow<'a, Drawing>, Directions)> = straightened(drawing)
-            .into_iter()
-            .map(|s| (Cow::Owned(s.drawing), s.directions))
-            .collect();
-        let by_hand = !all.is_empty();
-        if !by_hand {
-            let candidates = Directions::candidates(drawing).unwrap_or_default();
-            all = candidates
-                .into_iter()
-                .map(|d| (Cow::Borrowed(drawing), d))
-                .collect();
+        let straight = straightened(drawing);
+        let exact = if straight.is_empty() {
+            Directions::candidates(drawing).unwrap_or_default()
+        } else {
+            Vec::new()
+        };
+        Self {
+            drawing,
+            exact,
+            straight,
         }
-        Self { all, by_hand }
     }
 
     /// The drawing made straight by the likeliest reading, if it is by hand.
     pub(crate) fn straight(&self) -> Option<&Drawing> {
-        let first = self.all.first().filter(|_| self.by_hand);
-        first.map(|(drawing, _)| drawing.as_ref())
+        self.straight.first().map(|s| &s.drawing)
     }
 }
 
@@ -102,37 +101,55 @@ impl Pieces {
     pub(crate) fn new<'a>(
         readings: &'a Readings<'_>,
         faces: &[Face],
-    ) -> Result<(&'a Drawing, Self), LiftError> {
-        let mut best: Option<(usize, &Drawing, Self)> = None;
+    ) -> Result<(Cow<'a, Drawing>, Self), LiftError> {
+        let mut best: Option<(usize, Cow<'a, Drawing>, Self)> = None;
         let mut refusal = None;
-        for (drawing, reading) in &readings.all {
-            if best.as_ref().is_some_and(|b| b.0 == 0) {
-                break;
-            }
-            let mut sheet = Sheet::new(drawing, faces, reading);
-            let trusted = readings.by_hand.then(|| ends::trusted(&sheet));
-            if let Some(trusted) = &trusted {
-                sheet = Sheet::new(drawing, faces, trusted);
-            }
-            match solve::solve_parts(&sheet) {
-                Ok(solved) => {
-                    let mut wrong = solved.dropped();
-                    if readings.by_hand {
-                        wrong += flat(&sheet, &solved);
-                    }
-                    if best.as_ref().is_none_or(|b| 2 * wrong < b.0) {
-                        let own = Self::of(&sheet, solved);
-                        best = Some((wrong, drawing, own));
-                    }
-                }
+        let mut take = |found: Result<(usize, Cow<'a, Drawing>, Self), LiftError>| {
+            match found {
+                Ok(own) if best.as_ref().is_none_or(|b| 2 * own.0 < b.0) => best = Some(own),
+                Ok(_) => {}
                 Err(error) => refusal = Some(error),
             }
-        }
+            best.as_ref().is_some_and(|b| b.0 == 0)
+        };
+        let mut exact = readings.exact.iter();
+        let mut straight = readings.straight.iter();
+        let _ = exact.any(|directions| {
+            let sheet = Sheet::new(readings.drawing, faces, directions);
+            take(solve::solve_parts(&sheet).map(|solved| {
+                let drawing = Cow::Borrowed(readings.drawing);
+                (solved.dropped(), drawing, Self::of(&sheet, solved))
+            }))
+        }) || straight.any(|s| take(Self::by_hand(readings.drawing, s, faces)));
         match (best, refusal) {
             (Some((_, drawing, pieces)), _) => Ok((drawing, pieces)),
             (None, Some(error)) => Err(error),
             (None, None) => Err(LiftError::NoDirections("no reading".into())),
         }
+    }
+
+    /// Lifts a drawing by hand by one reading; also how many edges and rows contradict it.
+    fn by_hand<'a>(
+        drawn: &Drawing,
+        straight: &'a Straight,
+        faces: &[Face],
+    ) -> Result<(usize, Cow<'a, Drawing>, Self), LiftError> {
+        let directions = &straight.directions;
+        let ends = ends::ends(&Sheet::new(&straight.drawing, faces, directions));
+        let trusted = ends.directions;
+        let anew = trusted.and_then(|trusted| straight.anew(drawn, trusted));
+        let own = anew.as_ref().unwrap_or(straight);
+        let mut sheet = Sheet::new(&own.drawing, faces, &own.directions);
+        sheet.set_parallels(own.parallels());
+        sheet.ends = ends.faces;
+        let solved = solve::solve_parts(&sheet)?;
+        let wrong = solved.dropped() + flat(&sheet, &solved);
+        let pieces = Self::of(&sheet, solved);
+        let drawing = match anew {
+            Some(anew) => Cow::Owned(anew.drawing),
+            None => Cow::Borrowed(&straight.drawing),
+        };
+        Ok((wrong, drawing, pieces))
     }
 
     fn of(sheet: &Sheet<'_>, solved: Solved) -> Self {

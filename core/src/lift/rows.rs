@@ -82,6 +82,12 @@ pub(super) fn certain(sheet: &Sheet<'_>, unknowns: &Unknowns) -> System<Tag> {
     alignment(sheet, unknowns, &mut system);
     discs(sheet, unknowns, &mut system);
     chords(sheet, &mut system);
+    for &(face, k) in &sheet.ends {
+        if let Some(p) = unknowns.plane(face) {
+            let tag = Tag::Prism { face };
+            normal_to(sheet, face, p, sheet.axis(k), tag, &mut system);
+        }
+    }
     system
 }
 

@@ -25,6 +25,8 @@ pub(super) struct Sheet<'a> {
     /// Straight edges without an axis that are drawn parallel, longest first; in a parallel
     /// projection.
     pub(super) parallels: Vec<Vec<usize>>,
+    /// Planar faces that are known to be across an axis, each with that axis.
+    pub(super) ends: Vec<(usize, usize)>,
     /// Edges of each face, sorted, each once.
     edges: Vec<Vec<usize>>,
     /// Edges at each vertex.
@@ -92,6 +94,7 @@ impl<'a> Sheet<'a> {
         };
         Self {
             parallels,
+            ends: Vec::new(),
             edges: face_edges,
             edges_at,
             faces_of,
@@ -104,6 +107,12 @@ impl<'a> Sheet<'a> {
             corners,
             middles,
         }
+    }
+
+    /// Takes edges for parallel that are known to be, of each set, and no others.
+    pub(super) fn set_parallels(&mut self, mut sets: Vec<Vec<usize>>) {
+        sets.retain(|set| set.iter().all(|&e| self.edge_axis[e].is_none()));
+        self.parallels = sets;
     }
 
     pub(super) fn axis(&self, k: usize) -> DVec3 {

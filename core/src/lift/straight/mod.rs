@@ -2,7 +2,7 @@
 //!
 //! Which edges follow an axis and which arcs are circles around one is told by the frame alone. So
 //! the vertices are moved as little as possible until such edges are exactly along their axes, such
-//! arcs exactly circles, and edges that are drawn parallel exactly parallel. Loops of edges along
+//! arcs exactly circles, and opposite sides of parallelograms exactly alike. Loops of edges along
 //! axes close in depth then, whatever the faces are, and only what is oblique keeps its errors.
 //! An edge that seemed to follow an axis and pulls its ends too far away is let go.
 
@@ -10,12 +10,14 @@ mod circles;
 mod doubts;
 pub(super) mod ends;
 mod redraw;
+mod rows;
 mod solve;
 #[cfg(test)]
 mod tests;
 
 use super::directions::{Directions, is_exact, recognised};
 use crate::drawing::{Drawing, Projection};
+use rows::{Row, rows};
 use solve::Bundle;
 
 /// A drawing as it is drawn or made straight, with one reading of its directions.
@@ -24,6 +26,22 @@ pub(crate) struct Straight {
     pub(crate) drawing: Drawing,
     /// Its directions; the precision is the error of the drawing as it was drawn.
     pub(crate) directions: Directions,
+    rows: Vec<Row>,
+}
+
+impl Straight {
+    /// Edges that are parallel, of each set.
+    pub(super) fn parallels(&self) -> Vec<Vec<usize>> {
+        let rows = self.rows.iter();
+        rows.map(|row| row.edges.iter().map(|m| m.0).collect())
+            .collect()
+    }
+
+    /// The drawing, as it was drawn, made straight anew by other directions; `None` if it cannot be
+    /// solved.
+    pub(super) fn anew(&self, drawn: &Drawing, directions: Directions) -> Option<Self> {
+        straighten(drawn, directions, self.rows.clone())
+    }
 }
 
 /// Readings of a drawing by hand, most likely first; none if it is exact or nothing is told.
@@ -34,19 +52,20 @@ pub(crate) fn straightened(drawing: &Drawing) -> Vec<Straight> {
     let readings = Directions::coarse(drawing).into_iter();
     readings
         .flat_map(|reading| {
+            let rows = rows(drawing, reading.precision);
             let reading = doubts::without_aside(drawing, reading);
             let long = doubts::long(drawing, &reading);
-            [reading, long]
+            [reading, long].map(|r| (rows::told(&rows, r), rows.clone()))
         })
-        .filter_map(|reading| straighten(drawing, reading))
+        .filter_map(|(reading, rows)| straighten(drawing, reading, rows))
         .collect()
 }
 
 /// The drawing made straight by one reading; `None` if it cannot be solved.
-fn straighten(drawing: &Drawing, mut reading: Directions) -> Option<Straight> {
+fn straighten(drawing: &Drawing, mut reading: Directions, rows: Vec<Row>) -> Option<Straight> {
     let drawing = recognised(drawing, reading.precision);
     circles::take_in(&drawing, &mut reading);
-    let mut bundle = Bundle::new(&drawing, &reading);
+    let mut bundle = Bundle::new(&drawing, &reading, &rows);
     let fitted = bundle.solve()?;
     let mut directions = reading.clone();
     directions.precision = fitted.error;
@@ -57,5 +76,6 @@ fn straighten(drawing: &Drawing, mut reading: Directions) -> Option<Straight> {
     Some(Straight {
         drawing: redraw::applied(&drawing, &bundle, &fitted),
         directions,
+        rows,
     })
 }

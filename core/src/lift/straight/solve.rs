@@ -5,8 +5,9 @@ use std::f64::consts::SQRT_2;
 use glam::DVec2;
 
 use super::circles::{Circle, circles, coaxial};
+use super::rows::Row;
 use crate::drawing::Drawing;
-use crate::lift::directions::{Directions, Evidence};
+use crate::lift::directions::Directions;
 use crate::lift::system::System;
 
 /// Weight of what has to hold beside a drawn vertex.
@@ -45,10 +46,14 @@ const AT_ONCE: usize = 16;
 enum Condition {
     /// An edge is drawn along an axis.
     Along { edge: usize, axis: usize },
-    /// An edge is parallel to the others of a cluster.
-    Parallel { edge: usize, cluster: usize },
     /// A vertex is on a circle.
     On { vertex: usize, circle: usize },
+    /// Two edges are one vector, the second one times a sign; what it is in one direction.
+    Alike {
+        edges: [usize; 2],
+        sign: f64,
+        direction: DVec2,
+    },
     /// Two circles are around one line.
     Coaxial { circles: [usize; 2] },
 }
@@ -58,8 +63,6 @@ pub(super) struct Bundle<'a> {
     drawing: &'a Drawing,
     directions: &'a Directions,
     circles: Vec<Circle>,
-    /// Directions of clusters of parallel edges that follow no axis, as angles.
-    clusters: Vec<f64>,
     conditions: Vec<Condition>,
 }
 
@@ -73,23 +76,23 @@ pub(super) struct Fitted {
 }
 
 impl<'a> Bundle<'a> {
-    pub(super) fn new(drawing: &'a Drawing, directions: &'a Directions) -> Self {
+    pub(super) fn new(drawing: &'a Drawing, directions: &'a Directions, rows: &[Row]) -> Self {
         let mut conditions = Vec::new();
         for (axis, a) in directions.axes.iter().enumerate() {
             let along = a.edges.iter().map(|&edge| Condition::Along { edge, axis });
             conditions.extend(along);
         }
-        let mut clusters = Vec::new();
-        let evidence = Evidence::new(drawing, directions.precision);
-        for cluster in &evidence.clusters {
-            let free = |e: &usize| directions.axis_of_edge(*e).is_none();
-            let edges: Vec<usize> = evidence.edges_of(cluster).filter(free).collect();
-            if edges.len() > 1 {
-                let cluster_of = clusters.len();
-                clusters.push(cluster.direction.to_angle());
-                conditions.extend(edges.into_iter().map(|edge| Condition::Parallel {
-                    edge,
-                    cluster: cluster_of,
+        for row in rows {
+            let axis = row.edges.first().and_then(|m| directions.axis_of_edge(m.0));
+            // Across an axis they are alike already.
+            let along = axis.map(|k| directions.axes[k].direction.truncate().normalize());
+            let ways = along.map_or(vec![DVec2::X, DVec2::Y], |along| vec![along]);
+            for pair in row.edges.windows(2) {
+                let (edges, sign) = ([pair[0].0, pair[1].0], pair[0].1 * pair[1].1);
+                conditions.extend(ways.iter().map(|&direction| Condition::Alike {
+                    edges,
+                    sign,
+                    direction,
                 }));
             }
         }
@@ -109,7 +112,6 @@ impl<'a> Bundle<'a> {
             drawing,
             directions,
             circles,
-            clusters,
             conditions,
         }
     }
@@ -127,7 +129,7 @@ impl<'a> Bundle<'a> {
 
     /// Solves, and lets go of what pulls vertices too far away.
     pub(super) fn solve(&mut self) -> Option<Fitted> {
-        let start = (self.circles.clone(), self.clusters.clone());
+        let start = self.circles.clone();
         for _ in 0..ROUNDS {
             let (fitted, forces) = self.fit()?;
             let torn = TORN * fitted.typical;
@@ -158,17 +160,19 @@ impl<'a> Bundle<'a> {
                 index += 1;
                 !gone.contains(&(index - 1))
             });
-            (self.circles, self.clusters) = start.clone();
+            self.circles.clone_from(&start);
         }
         self.fit().map(|f| f.0)
     }
 
     fn vertices_of(&self, condition: usize) -> Vec<usize> {
         match self.conditions[condition] {
-            Condition::Along { edge, .. } | Condition::Parallel { edge, .. } => {
-                self.drawing.edges[edge].v.to_vec()
-            }
+            Condition::Along { edge, .. } => self.drawing.edges[edge].v.to_vec(),
             Condition::On { vertex, .. } => vec![vertex],
+            Condition::Alike { edges, .. } => {
+                let ends = edges.map(|e| self.drawing.edges[e].v);
+                ends.concat()
+            }
             Condition::Coaxial { .. } => Vec::new(),
         }
     }
@@ -194,9 +198,6 @@ impl<'a> Bundle<'a> {
                 c.center += DVec2::new(x[k], x[k + 1]);
                 c.radius = (c.radius + x[k + 2]).max(0.1 * c.radius);
             }
-            for (i, angle) in self.clusters.iter_mut().enumerate() {
-                *angle += x[2 * n + 3 * self.circles.len() + i].clamp(-0.2, 0.2);
-            }
         }
         let finite = vertices.iter().all(|p| p.is_finite());
         finite.then(|| {
@@ -205,8 +206,8 @@ impl<'a> Bundle<'a> {
                 .iter()
                 .zip(drawn)
                 .map(|(p, q)| p.distance_squared(*q));
-            // Circles and clusters take as many conditions as they have numbers.
-            let free = 3 * self.circles.len() + self.clusters.len();
+            // Circles take as many conditions as they have numbers.
+            let free = 3 * self.circles.len();
             let told = self.conditions.len().saturating_sub(free) as f64;
             let own = (squares.sum::<f64>() / (told + PRIOR)).sqrt();
             let error = own.clamp(typical, WILD * typical);
@@ -251,32 +252,34 @@ impl<'a> Bundle<'a> {
     fn rows(&self, vertices: &[DVec2]) -> System<()> {
         let n = vertices.len();
         let circle = |c: usize| 2 * n + 3 * c;
-        let cluster = |c: usize| 2 * n + 3 * self.circles.len() + c;
-        let mut system = System::new(2 * n + 3 * self.circles.len() + self.clusters.len());
-        let across = |edge: usize, d: DVec2| {
+        let mut system = System::new(2 * n + 3 * self.circles.len());
+        // What an edge is in a direction, its terms and its value.
+        let part = |edge: usize, d: DVec2| {
             let [u, v] = self.drawing.edges[edge].v;
-            let s = d.perp();
             let terms = [
-                (2 * v, s.x),
-                (2 * v + 1, s.y),
-                (2 * u, -s.x),
-                (2 * u + 1, -s.y),
+                (2 * v, d.x),
+                (2 * v + 1, d.y),
+                (2 * u, -d.x),
+                (2 * u + 1, -d.y),
             ];
-            (terms, (vertices[v] - vertices[u]).dot(s))
+            (terms, (vertices[v] - vertices[u]).dot(d))
         };
         for condition in &self.conditions {
             match *condition {
                 Condition::Along { edge, axis } => {
                     let d = self.directions.axes[axis].direction.truncate().normalize();
-                    let (terms, off) = across(edge, d);
+                    let (terms, off) = part(edge, d.perp());
                     system.push(terms, -off, STRONG, ());
                 }
-                Condition::Parallel { edge, cluster: c } => {
-                    let d = DVec2::from_angle(self.clusters[c]);
-                    let (terms, off) = across(edge, d);
-                    let [u, v] = self.drawing.edges[edge].v;
-                    let turn = (cluster(c), -(vertices[v] - vertices[u]).dot(d));
-                    system.push(terms.into_iter().chain([turn]), -off, STRONG, ());
+                Condition::Alike {
+                    edges: [e, f],
+                    sign,
+                    direction,
+                } => {
+                    let (terms, one) = part(e, direction);
+                    let (others, other) = part(f, direction * sign);
+                    let terms = terms.into_iter().chain(others.map(|(i, c)| (i, -c)));
+                    system.push(terms, other - one, STRONG, ());
                 }
                 Condition::On { vertex, circle: c } => {
                     let (own, at) = (&self.circles[c], circle(c));

@@ -63,8 +63,8 @@ pub(super) fn group(readings: &Readings<'_>, graph: &Graph, loops: &[Face]) -> V
             score: 0.0,
         }];
     };
-    let mut shapes = Shapes::new(drawing, graph, &pieces, loops);
-    oblique::add(&mut shapes, drawing, &pieces, loops);
+    let mut shapes = Shapes::new(&drawing, graph, &pieces, loops);
+    oblique::add(&mut shapes, &drawing, &pieces, loops);
     let links = links::links(&shapes);
     search::Search::new(&shapes, &links, &HandJoinScorer).run()
 }

@@ -25,7 +25,7 @@ const CHANCE: f64 = 0.25;
 const PARALLEL: f64 = 5e-3;
 const MOST: f64 = 0.15;
 
-/// Share of a normal towards the viewer that counts at least.
+/// Share of a normal towards the viewer, and across, that counts at least.
 const STEEPEST: f64 = 0.05;
 
 /// Share of a normal towards the viewer below which a plane is seen from its edge.
@@ -67,11 +67,19 @@ impl Shapes {
 }
 
 impl Outline {
-    /// Standard error of its depth if that of drawn coordinates is `error`: an error of a point is
-    /// one of its depth times the plane's slope, and the plane's is that of the mean of its corners.
+    /// Standard error of its depth in its part if that of drawn coordinates is `error`.
+    ///
+    /// How far a plane is from others that are parallel is told by edges across it, which are drawn
+    /// the shorter the more it faces the viewer, and its depth at a place is that times its slope.
+    /// There is an edge across at each of its corners.
     pub(super) fn depth_error(&self, error: f64) -> f64 {
-        let steep = self.plane.map_or(1.0, |p| p.normal().z.abs().max(STEEPEST));
-        error / (steep * (self.corners.len().max(1) as f64).sqrt())
+        let corners = (self.corners.len().max(1) as f64).sqrt();
+        let told = self.plane.map_or(1.0, |p| {
+            let normal = p.normal();
+            let [steep, across] = [normal.z.abs(), normal.truncate().length()];
+            steep.max(STEEPEST) * across.max(STEEPEST)
+        });
+        error / (told * corners)
     }
 }
 
