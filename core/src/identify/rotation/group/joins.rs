@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::alike::Twin;
+use super::alike::{Twin, alike};
 use super::body::{Place, fit};
 use super::links::{Link, LinkKind};
 use super::score::{COUNT, Feature, JoinScorer, Row};
@@ -89,6 +89,20 @@ pub(super) struct Joiner<'a> {
     pub(super) rays: Rays,
     /// Pairs of loops, outer and inner, that have a link.
     pub(super) joined: BTreeSet<(usize, usize)>,
+}
+
+impl<'a> Joiner<'a> {
+    pub(super) fn new(shapes: &'a Shapes, links: &'a [Link], scorer: &'a dyn JoinScorer) -> Self {
+        Self {
+            shapes,
+            links,
+            scorer,
+            main: shapes.main_part().unwrap_or(0),
+            alike: alike(shapes),
+            rays: Rays::new(shapes),
+            joined: links.iter().map(|l| (l.outer, l.inner)).collect(),
+        }
+    }
 }
 
 impl Joiner<'_> {

@@ -192,7 +192,10 @@ impl Joiner<'_> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::score::HandJoinScorer;
+    use super::super::tests::{in_perspective, lifted};
     use super::*;
+    use crate::identify::testing::holed_cube;
 
     #[test]
     fn round_fractions_have_small_denominators() {
@@ -200,5 +203,25 @@ mod tests {
         assert_eq!(denominator(2.0 / 3.0 + 5e-5, 1e-4), Some(3.0));
         assert_eq!(denominator(0.3003, 1e-4), None);
         assert_eq!(denominator(f64::NAN, 1e-4), None);
+    }
+
+    #[test]
+    fn a_hole_has_the_same_place_in_either_projection() {
+        // From 0.3 to 0.6 of the face: 3/5 is the roundest place, and the wall is 0.3 of it.
+        for drawing in [holed_cube(), in_perspective(holed_cube())] {
+            lifted(&drawing, |shapes, links| {
+                let main = shapes.main_part().unwrap();
+                let joiner = Joiner::new(shapes, links, &HandJoinScorer);
+                let ends: Vec<&Link> = links
+                    .iter()
+                    .filter(|l| shapes.loops[l.outer].part == main)
+                    .filter(|l| (joiner.thinness(l) - (-0.3 * WALLS).exp()).abs() < 1e-4)
+                    .collect();
+                assert!(ends.len() >= 2, "{links:?}");
+                let round = joiner.roundness(ends[0]);
+                let error = shapes.exactly() / (shapes.size * 2.0);
+                assert!(round > 2.0 * -(2.0 * error * 100.0).ln(), "{round}");
+            });
+        }
     }
 }

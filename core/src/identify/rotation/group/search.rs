@@ -7,7 +7,6 @@
 use std::collections::{BTreeSet, BinaryHeap};
 
 use super::Grouping;
-use super::alike::alike;
 use super::body::Place;
 use super::chains::{Chain, chains};
 use super::joins::{Join, Joiner, Role, State};
@@ -15,7 +14,6 @@ use super::links::{Link, LinkKind};
 use super::score::JoinScorer;
 use super::shapes::Shapes;
 use super::trials::{Run, Step, push_trials};
-use super::volume::Rays;
 use crate::sets::Sets;
 
 /// Joins of a part that are kept.
@@ -58,15 +56,7 @@ impl<'a> Search<'a> {
         }
         Self {
             chains: chains(shapes, links),
-            joiner: Joiner {
-                shapes,
-                links,
-                scorer,
-                main: shapes.main_part().unwrap_or(0),
-                alike: alike(shapes),
-                rays: Rays::new(shapes),
-                joined: links.iter().map(|l| (l.outer, l.inner)).collect(),
-            },
+            joiner: Joiner::new(shapes, links, scorer),
             own,
         }
     }

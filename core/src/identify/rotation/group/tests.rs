@@ -85,7 +85,7 @@ fn seen(mut drawing: Drawing, turn: f64, tilt: f64) -> Drawing {
     drawing
 }
 
-fn single_loops(drawing: &Drawing) -> Vec<Face> {
+pub(super) fn single_loops(drawing: &Drawing) -> Vec<Face> {
     let truth = drawing.truth.as_ref().unwrap();
     let loops = truth.faces.iter().flat_map(|f| &f.loops);
     loops
@@ -96,6 +96,30 @@ fn single_loops(drawing: &Drawing) -> Vec<Face> {
             evidence: Evidence::default(),
         })
         .collect()
+}
+
+/// The same drawing, of a parallel projection, as a camera sees it that is 6 units away.
+pub(super) fn in_perspective(mut drawing: Drawing) -> Drawing {
+    let truth = drawing.truth.as_ref().unwrap();
+    let seen = truth
+        .vertices3d
+        .iter()
+        .map(|p| p.truncate() * (6.0 / (6.0 - p.z)));
+    drawing.vertices = seen.collect();
+    for edge in &mut drawing.edges {
+        edge.points = edge.v.map(|v| drawing.vertices[v]).to_vec();
+    }
+    drawing.projection = crate::drawing::Projection::Perspective { focal: Some(6.0) };
+    drawing
+}
+
+/// Calls `look` with the loops of a drawing as they are lifted, and the pairs that may be faces.
+pub(super) fn lifted(drawing: &Drawing, look: impl Fn(&Shapes, &[links::Link])) {
+    let loops = single_loops(drawing);
+    let readings = Readings::new(drawing);
+    let (drawing, pieces) = Pieces::new(&readings, &loops).unwrap();
+    let shapes = Shapes::new(drawing, &Graph::new(drawing), &pieces, &loops);
+    look(&shapes, &links::links(&shapes));
 }
 
 fn edge_sets(faces: &[Face]) -> BTreeSet<Vec<usize>> {

@@ -121,3 +121,37 @@ fn crossings(shapes: &Shapes, part: usize, at: DVec2) -> Option<Vec<f64>> {
     levels.sort_by(f64::total_cmp);
     (levels.len() % 2 == 0).then_some(levels)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{in_perspective, lifted};
+    use super::*;
+    use crate::identify::testing::holed_cube;
+
+    #[test]
+    fn a_hole_is_inside_where_both_its_ends_are_in_faces() {
+        for drawing in [holed_cube(), in_perspective(holed_cube())] {
+            lifted(&drawing, |shapes, links| {
+                let main = shapes.main_part().unwrap();
+                let hole = 1 - main;
+                let mut placed = vec![None; 2];
+                placed[main] = Some(Place {
+                    shift: 0.0,
+                    turned: false,
+                });
+                let rays = Rays::new(shapes);
+                let at = |shift: f64| rays.inside_and_outside(shapes, hole, shift, &placed);
+                let own = links
+                    .iter()
+                    .filter(|l| shapes.loops[l.inner].part == hole)
+                    .map(|l| l.offset);
+                let own: Vec<f64> = own.collect();
+                let twice = |x: &&f64| own.iter().filter(|y| (*x - **y).abs() < 1e-6).count() > 1;
+                let through = *own.iter().find(twice).unwrap();
+                assert_eq!(at(through), [true, false]);
+                assert_eq!(at(through + 0.5 * shapes.size), [true, true]);
+                assert_eq!(at(through + 5.0 * shapes.size), [false, true]);
+            });
+        }
+    }
+}
