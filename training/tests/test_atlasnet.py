@@ -1,5 +1,6 @@
 """Images, sampled solids, network and training of the AtlasNet baseline."""
 
+import json
 import os
 import subprocess
 import sys
@@ -21,6 +22,7 @@ from faceformer_training.atlasnet.train import TrainConfig, measure_last, mirror
 
 ROOT = Path(__file__).parents[2]
 PROGRAM = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")) / "release" / "faceformer"
+CONFIGS = sorted((ROOT / "training/configs/atlasnet").glob("*.json"))
 TETRAHEDRON = np.array(
     [
         [[0, 0, 0], [0, 1, 0], [1, 0, 0]],
@@ -156,3 +158,10 @@ def test_solids_of_the_corpus_are_sampled(tmp_path):
     assert len(clouds["images"]) >= 3
     half = np.ptp(clouds["points"], axis=1)
     assert (np.linalg.norm(half, axis=1) / 2 > 0.8).all()
+
+
+@pytest.mark.parametrize("path", CONFIGS, ids=lambda path: path.stem)
+def test_configurations_are_read(path):
+    config = TrainConfig(**json.loads(path.read_text()))
+    assert config.rate(0) == config.learning_rate > config.rate(config.steps - 1)
+    AtlasConfig(**config.model)

@@ -87,7 +87,7 @@ fn two_discs_in_one_plane_are_no_matching() {
     let (drawing, loops) = (turned(&profile), loops(profile.len()));
     let readings = Readings::new(&drawing);
     let (drawing, pieces) = Pieces::new(&readings, &loops).unwrap();
-    let shapes = Shapes::new(drawing, &Graph::new(drawing), &pieces, &loops);
+    let shapes = Shapes::new(&drawing, &Graph::new(&drawing), &pieces, &loops);
     let links = links(&shapes);
     let state = State {
         placed: vec![None; shapes.parts.len()],
