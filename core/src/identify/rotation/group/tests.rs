@@ -118,7 +118,7 @@ pub(super) fn lifted(drawing: &Drawing, look: impl Fn(&Shapes, &[links::Link])) 
     let loops = single_loops(drawing);
     let readings = Readings::new(drawing);
     let (drawing, pieces) = Pieces::new(&readings, &loops).unwrap();
-    let shapes = Shapes::new(drawing, &Graph::new(drawing), &pieces, &loops);
+    let shapes = Shapes::new(&drawing, &Graph::new(&drawing), &pieces, &loops);
     look(&shapes, &links::links(&shapes));
 }
 
