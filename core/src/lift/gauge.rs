@@ -34,6 +34,7 @@ pub(super) fn choose(
         let Some(v) = tried.iter().position(|t| !t) else {
             break;
         };
+        system.sharpen();
         system.push([(v, 1.0)], focal, weight, Tag::Gauge);
         let null_space = left_open(focal, system, tried.len())?;
         let mut tied = 0;
@@ -53,6 +54,7 @@ pub(super) fn choose(
             best = Some((v, tied));
         }
     }
+    system.sharpen();
     if let Some((v, _)) = best {
         system.push([(v, 1.0)], focal, weight, Tag::Gauge);
     }

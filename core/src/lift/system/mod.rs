@@ -110,6 +110,11 @@ impl<T> System<T> {
         self.unknowns - 1
     }
 
+    /// Takes all [`blur`](Self::blur) back.
+    pub const fn sharpen(&mut self) {
+        self.open = normal::EPS;
+    }
+
     /// Makes what counts as left open 10 times more, in squared singular values, and says whether
     /// that is sensible still: rows without right-hand sides that disagree by their errors say of a
     /// loose part that all of it is zero.
