@@ -59,6 +59,11 @@ struct SolidFigures {
     valid: f64,
     /// Number of drawings whose solid is of an alternative, since the first reading has a fault.
     exchanged: usize,
+    /// Share of the true right angles between neighbouring planes that the lift has within 1e-9, over
+    /// the edges there of all drawings that could be lifted; `null` if there is no such edge.
+    right_angles: Option<f64>,
+    /// Number of these edges.
+    right_angles_of: usize,
     /// Median time of lifting, over the drawings that could be lifted.
     lift_ms_median: f64,
     /// Median time of plan and solid, over the drawings that gave a valid one.
@@ -140,7 +145,12 @@ impl SolidFigures {
             };
             (!of.is_empty()).then_some((kind.name(), figures))
         });
+        let angles = || all.iter().filter_map(|m| m.right_angles);
+        let wanted: usize = angles().map(|a| a.wanted).sum();
+        let exact: usize = angles().map(|a| a.exact).sum();
         Self {
+            right_angles: (wanted > 0).then(|| 100.0 * exact as f64 / wanted as f64),
+            right_angles_of: wanted,
             lifted: share(&all, |m| m.lifted),
             valid: share(&all, |m| m.valid),
             exchanged: all.iter().filter(|m| m.exchanged).count(),
@@ -197,6 +207,7 @@ impl Figures {
                 "solids  lifted    {:6.2}   valid  {:6.2}   of alternatives {}\n\
                  right   Chamfer   {:6.2}   in top 3 {:6.2}   volume {:6.2}   faces {:6.2}   \
                  no truth {}\n\
+                 angles  right     {}   of {}\n\
                  time    lift median {:.3} ms   solid median {:.3} ms",
                 s.lifted,
                 s.valid,
@@ -206,6 +217,9 @@ impl Figures {
                 r.volume_within_1pct,
                 r.faces_matched,
                 r.no_truth,
+                s.right_angles
+                    .map_or_else(|| "     -".to_owned(), |a| format!("{a:6.2}")),
+                s.right_angles_of,
                 s.lift_ms_median,
                 s.solid_ms_median
             )
@@ -280,6 +294,7 @@ mod tests {
 
     use super::*;
     use crate::eval::measure::Failed;
+    use crate::eval::right_angles::RightAngles;
 
     fn one(lifted: bool, messages: &[&str]) -> Measured {
         Measured {
@@ -296,6 +311,7 @@ mod tests {
             solid_ms: None,
             corrupted: None,
             compared: None,
+            right_angles: None,
             exchanged: false,
             near_top3: false,
             no_truth: false,
@@ -366,6 +382,24 @@ mod tests {
         assert!(kinds.get("torus").is_none());
         let table = Figures::of(&all, true).table(&all);
         assert!(table.contains("sphere"), "{table}");
+    }
+
+    #[test]
+    fn right_angles_are_counted_over_the_drawings_that_lift() {
+        let mut all = [(); 3].map(|()| one(true, &[]));
+        let none = serde_json::to_value(Figures::of(&all, true)).unwrap();
+        assert!(none["right_angles"].is_null());
+        all[0].right_angles = Some(RightAngles {
+            wanted: 12,
+            exact: 12,
+        });
+        all[1].right_angles = Some(RightAngles {
+            wanted: 4,
+            exact: 0,
+        });
+        let value = serde_json::to_value(Figures::of(&all, true)).unwrap();
+        assert_eq!(value["right_angles"].as_f64(), Some(75.0));
+        assert_eq!(value["right_angles_of"].as_u64(), Some(16));
     }
 
     #[test]

@@ -12,6 +12,7 @@ use serde::Serialize;
 
 use super::compare::{Compared, compare};
 use super::random::Random;
+use super::right_angles::RightAngles;
 use super::spoil::corrupt;
 use crate::failure::Failure;
 use crate::solid::{Made, make};
@@ -58,6 +59,8 @@ pub(crate) struct Measured {
     pub(crate) corrupted: Option<Corrupted>,
     /// How the solid compares with the true one; `None` if there is no solid, or no truth.
     pub(crate) compared: Option<Compared>,
+    /// Right angles between planes that are exact in the lift; `None` if there is no lift.
+    pub(crate) right_angles: Option<RightAngles>,
     /// Whether an alternative was taken because the first reading has a fault.
     pub(crate) exchanged: bool,
     /// Whether the solid, or that of one of the first three readings, is the true one.
@@ -80,6 +83,7 @@ impl Measured {
             failed: Vec::new(),
             corrupted: None,
             compared: None,
+            right_angles: None,
             exchanged: false,
             near_top3: false,
             no_truth: false,
@@ -229,6 +233,8 @@ fn measure_solid(
         measured.lift_ms = Some(milliseconds(made.lift_time));
         let error = depth_error(lifted, truth);
         measured.lifted = error <= DEPTH_TOLERANCE;
+        let faces = found.reading(taken.reading);
+        measured.right_angles = Some(RightAngles::of(drawing, faces, lifted));
         if !measured.lifted {
             fail("depth", format!("the depths are up to {error:.1e} off"));
         }

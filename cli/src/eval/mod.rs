@@ -6,6 +6,7 @@ mod each;
 mod figures;
 mod measure;
 mod random;
+mod right_angles;
 mod spoil;
 
 use faceformer::drawing::dataset::Drawings;

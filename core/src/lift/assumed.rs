@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 use super::camera::Relation;
 use super::directions::AGREE;
 use super::revolved;
-use super::rows::{Tag, Unknowns, along, normal_to};
+use super::rows::{Tag, Unknowns, along, beside_axes, normal_to};
 use super::sheet::Sheet;
 use super::system::System;
 use crate::drawing::{Curve2, SurfaceKind};
@@ -15,13 +15,15 @@ use crate::drawing::{Curve2, SurfaceKind};
 pub(super) type Level = fn(&Sheet<'_>, &Unknowns, &mut System<Tag>);
 
 /// The sets, surest first.
-pub(super) const LEVELS: [Level; 8] = [
+pub(super) const LEVELS: [Level; 10] = [
     parallel,
     // The sides of a frustum would pass for ends of prisms.
     frustums,
     prisms,
+    beside_axes,
     revolved::on_one_axis,
     revolved::on_cylinder,
+    revolved::equal_ends,
     generators,
     pencils,
     square,
@@ -65,7 +67,8 @@ fn square(sheet: &Sheet<'_>, unknowns: &Unknowns, system: &mut System<Tag>) {
     // Normals of planar faces that circles or two axes tell.
     let level = |face: usize| {
         let around = sheet.edges_of(face).iter().find_map(|&e| sheet.circles[e]);
-        sheet.normal_axis(face).or(around.map(|(k, _)| k))
+        let around = around.map(|(k, _)| k).filter(|&k| k < count);
+        sheet.normal_axis(face).or(around)
     };
     for face in 0..sheet.faces.len() {
         let Some(p) = unknowns.plane(face) else {

@@ -3,9 +3,12 @@
 //! A vertex on a known cylinder, cone, sphere or torus lies where its line of sight meets the
 //! surface: at two depths or four, of which the vertices of one loose part agree on one in a
 //! parallel projection. A vertex
-//! of outlines only lies where its line of sight touches the surface.
+//! of outlines lies where its line of sight touches the surface, or at the tip of a cone.
+
+use glam::DVec3;
 
 use super::Surface;
+use super::fillets;
 use super::heights::Heights;
 use super::ring_torus::touches;
 use super::sheet::Sheet;
@@ -16,6 +19,9 @@ const AGREE: f64 = 1e-4;
 
 /// A line of sight at a smaller angle to the surface (its sine) does not tell the depth.
 const GRAZING: f64 = 0.05;
+
+/// A line of sight that passes a surface by less than this share of the drawing's size touches it.
+const TOUCHES: f64 = 1e-3;
 
 /// A height that a surface gives.
 #[derive(Debug, Clone, Copy)]
@@ -42,7 +48,8 @@ pub(super) fn ties(sheet: &Sheet<'_>, heights: &Heights, groups: &[Vec<usize>]) 
                 .for_each(|&f| near[f] = true);
         }
     }
-    let surfaces = surfaces_of(sheet, heights, |face| near[face]);
+    let mut surfaces = surfaces_of(sheet, heights, |face| near[face]);
+    fillets::fill(sheet, heights, &mut surfaces);
     groups
         .iter()
         .filter_map(|group| tie(sheet, heights, &surfaces, group))
@@ -61,7 +68,7 @@ fn tie(sheet: &Sheet<'_>, heights: &Heights, surfaces: &[Surface], group: &[usiz
         for (face, surface) in surfaces.iter().enumerate() {
             let round = !matches!(surface, Surface::Plane { .. } | Surface::Unknown);
             if round && sheet.corners[face].binary_search(&vertex).is_ok() {
-                let found = heights_on(sheet, surface, vertex, face);
+                let found = heights_on(sheet, heights, surface, vertex, face);
                 let shift = |tie: Tie| Shift {
                     by: tie.height - heights.of(vertex),
                     tie,
@@ -89,15 +96,22 @@ fn tie(sheet: &Sheet<'_>, heights: &Heights, surfaces: &[Surface], group: &[usiz
 }
 
 /// Heights at which a vertex may lie on a surface.
-fn heights_on(sheet: &Sheet<'_>, surface: &Surface, vertex: usize, face: usize) -> Vec<Tie> {
+fn heights_on(
+    sheet: &Sheet<'_>,
+    heights: &Heights,
+    surface: &Surface,
+    vertex: usize,
+    face: usize,
+) -> Vec<Tie> {
     let (from, ray) = sheet.camera().ray(sheet.drawing.vertices[vertex]);
     let precision = sheet.directions.precision;
+    let kind = sheet.faces[face].kind;
+    // Edges between two parts of the surface: its outlines.
     let inside = |e: &usize| {
         let faces = sheet.neighbours(*e);
         faces.len() == 2
-            && faces
-                .iter()
-                .all(|&f| sheet.faces[f].kind == sheet.faces[face].kind)
+            && faces.contains(&face)
+            && faces.iter().all(|&f| sheet.faces[f].kind == kind)
             && sheet.circles[*e].is_none()
     };
     let tie = |t: f64, error: f64| Tie {
@@ -106,25 +120,121 @@ fn heights_on(sheet: &Sheet<'_>, surface: &Surface, vertex: usize, face: usize) 
         error,
         face,
     };
-    let at = sheet.edges_at(vertex);
-    let outline = !at.is_empty() && at.iter().all(inside);
-    if outline {
-        let found = match *surface {
-            Surface::Sphere { center, .. } => vec![(center - from).dot(ray) / ray.length_squared()],
-            Surface::Torus { .. } => touches(surface, from, ray, 1e-3 * sheet.size),
-            _ => Vec::new(),
-        };
-        return found
-            .into_iter()
-            .map(|t| tie(t, 10.0 * precision))
-            .collect();
+    let outlines = sheet.edges_at(vertex).iter().filter(|e| inside(e)).count();
+    if outlines > 0 {
+        let touching = touching(surface, from, ray, TOUCHES * sheet.size);
+        let known = touching.map(|t| tie(t, 10.0 * precision));
+        // Where nothing else meets, no line of sight crosses the surface.
+        if known.is_some() || outlines == sheet.edges_at(vertex).len() {
+            return known.into_iter().collect();
+        }
     }
+    let side = side(sheet, heights, surface, face);
     surface
         .crossings(from, ray)
         .into_iter()
         .filter_map(|t| {
-            let slope = surface.gradient(from + ray * t).dot(ray.normalize()).abs();
-            (slope > GRAZING).then(|| tie(t, 4.0 * precision / slope))
+            let slope = surface.gradient(from + ray * t).dot(ray.normalize());
+            let seen = side.is_none_or(|s| s == slope.signum());
+            (slope.abs() > GRAZING && seen).then(|| tie(t, 4.0 * precision / slope.abs()))
         })
         .collect()
+}
+
+/// Where a line of sight touches a surface, or ends at the tip of a cone, if it does within a distance.
+fn touching(surface: &Surface, from: DVec3, ray: DVec3, tolerance: f64) -> Option<f64> {
+    let nearest = |p: DVec3| (p - from).dot(ray) / ray.length_squared();
+    match *surface {
+        Surface::Sphere { center, radius } => {
+            let t = nearest(center);
+            let off = (from + ray * t).distance(center) - radius;
+            (off.abs() < tolerance).then_some(t)
+        }
+        Surface::Cylinder {
+            origin,
+            axis,
+            radius,
+        } => {
+            let across = ray.reject_from_normalized(axis);
+            let t = (origin - from).dot(across) / across.length_squared();
+            let off = (from + ray * t - origin)
+                .reject_from_normalized(axis)
+                .length()
+                - radius;
+            (off.abs() < tolerance).then_some(t)
+        }
+        Surface::Cone { apex, .. } => {
+            let t = nearest(apex);
+            let tip = (from + ray * t).distance(apex) < tolerance;
+            let double = || match surface.crossings(from, ray)[..] {
+                [s, t] => Some(f64::midpoint(s, t)),
+                _ => None,
+            };
+            let t = if tip { Some(t) } else { double() };
+            t.filter(|&t| surface.distance(from + ray * t).abs() < tolerance)
+        }
+        Surface::Torus { .. } => touches(surface, from, ray, tolerance).pop(),
+        Surface::Plane { .. } | Surface::Unknown => None,
+    }
+}
+
+/// The sign of a surface's gradient along the lines of sight at the known vertices of a face, which
+/// is seen from one side.
+fn side(sheet: &Sheet<'_>, heights: &Heights, surface: &Surface, face: usize) -> Option<f64> {
+    let known = sheet.corners[face].iter().filter(|&&v| heights.known[v]);
+    let slopes = known.map(|&v| {
+        let (_, ray) = sheet.camera().ray(sheet.drawing.vertices[v]);
+        let p = sheet.place(sheet.drawing.vertices[v], heights.of(v));
+        surface.gradient(p).dot(ray.normalize())
+    });
+    let clear: Vec<f64> = slopes
+        .filter(|s| s.abs() > GRAZING)
+        .map(f64::signum)
+        .collect();
+    let first = *clear.first()?;
+    clear.iter().all(|s| *s == first).then_some(first)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Lines of sight along z that graze surfaces beside the origin.
+    #[test]
+    fn lines_of_sight_touch_surfaces_where_they_graze_them() {
+        let center = DVec3::new(0.0, 0.0, 4.0);
+        let cylinder = Surface::Cylinder {
+            origin: center + DVec3::Y * 7.0,
+            axis: DVec3::Y,
+            radius: 0.5,
+        };
+        let sphere = Surface::Sphere {
+            center,
+            radius: 0.5,
+        };
+        let torus = Surface::Torus {
+            center,
+            axis: DVec3::Y,
+            major: 0.4,
+            minor: 0.1,
+        };
+        for surface in [cylinder, sphere, torus] {
+            let at = |x: f64| touching(&surface, DVec3::X * x, DVec3::Z * 2.0, 1e-3);
+            let t = at(0.5).unwrap_or_else(|| panic!("{surface:?}"));
+            assert!((t - 2.0).abs() < 1e-6, "{surface:?} {t}");
+            assert_eq!(at(0.45), None, "{surface:?}");
+        }
+        let cone = Surface::Cone {
+            apex: center,
+            axis: DVec3::Y,
+            angle: 0.4,
+        };
+        let tip = touching(&cone, DVec3::ZERO, DVec3::Z, 1e-3);
+        assert!(tip.is_some_and(|t| (t - 4.0).abs() < 1e-9), "{tip:?}");
+        // At the height h the cone is h tan(0.4) wide.
+        let side = DVec3::new(2.0 * 0.4f64.tan(), 2.0, 0.0);
+        let found = touching(&cone, side, DVec3::Z, 1e-3);
+        assert!(found.is_some_and(|t| (t - 4.0).abs() < 1e-3), "{found:?}");
+        assert_eq!(touching(&cone, side * 1.1 + DVec3::Y, DVec3::X, 1e-3), None);
+    }
 }

@@ -34,8 +34,9 @@ pub(super) fn choose(
         let Some(v) = tried.iter().position(|t| !t) else {
             break;
         };
+        system.sharpen();
         system.push([(v, 1.0)], focal, weight, Tag::Gauge);
-        let null_space = system.null_space()?;
+        let null_space = left_open(focal, system, tried.len())?;
         let mut tied = 0;
         for (u, tried) in tried.iter_mut().enumerate() {
             if !null_space.is_free(u) {
@@ -53,12 +54,31 @@ pub(super) fn choose(
             best = Some((v, tied));
         }
     }
+    system.sharpen();
     if let Some((v, _)) = best {
         system.push([(v, 1.0)], focal, weight, Tag::Gauge);
     }
-    let null_space = system.null_space()?;
+    let null_space = left_open(focal, system, tried.len())?;
     fix_mean(focal, &null_space, system, tried.len());
     Ok(null_space)
+}
+
+/// What a system with one height given leaves open. A loose part has heights of any scale; the errors
+/// of its rows may say that the scale is zero, which is none.
+fn left_open(
+    focal: f64,
+    system: &mut System<Tag>,
+    vertices: usize,
+) -> Result<NullSpace, LiftError> {
+    let all = vec![true; system.rows().len()];
+    loop {
+        let null_space = system.null_space()?;
+        let x = system.minimise(&all)?;
+        let vanishes = |v: usize| x[v].abs() < 0.5 * LOWEST * focal && !null_space.is_free(v);
+        if !(0..vertices).any(vanishes) || !system.blur() {
+            return Ok(null_space);
+        }
+    }
 }
 
 /// Gives the height of one vertex of every part of the drawing that has none, and returns what is
@@ -96,9 +116,18 @@ fn fix_mean(focal: f64, null_space: &NullSpace, system: &mut System<Tag>, vertic
 
 /// Takes the weight of the one vertex' row away.
 pub(super) fn release(system: &mut System<Tag>) {
+    weigh(system, 0.0);
+}
+
+/// Gives it back.
+pub(super) fn hold(sheet: &Sheet<'_>, system: &mut System<Tag>) {
+    weigh(system, sheet.directions.precision.recip());
+}
+
+fn weigh(system: &mut System<Tag>, weight: f64) {
     let rows = system.rows_mut().iter_mut();
     rows.filter(|row| row.tag == Tag::Gauge)
-        .for_each(|row| row.weight = 0.0);
+        .for_each(|row| row.weight = weight);
 }
 
 /// Scales a solution so that the mean of the heights that are determined is the focal length.
@@ -125,15 +154,20 @@ pub(super) fn rescale(
     }
 }
 
-/// Whether all vertices are in front of the camera.
+/// Whether all vertices whose height is determined are in front of the camera.
 ///
 /// # Errors
 /// [`LiftError::Behind`] names those that are not.
-pub(super) fn in_front(sheet: &Sheet<'_>, x: &[f64]) -> Result<(), LiftError> {
+pub(super) fn in_front(
+    sheet: &Sheet<'_>,
+    null_space: &NullSpace,
+    x: &[f64],
+) -> Result<(), LiftError> {
     let Camera::Central { focal, .. } = *sheet.camera() else {
         return Ok(());
     };
     let vertices: Vec<usize> = (0..sheet.drawing.vertices.len())
+        .filter(|&v| !null_space.is_free(v))
         .filter(|&v| x[v].is_nan() || x[v] < 0.5 * LOWEST * focal)
         .collect();
     if vertices.is_empty() {

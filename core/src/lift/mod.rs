@@ -14,6 +14,7 @@ mod conflicts;
 pub mod directions;
 mod error;
 mod evident;
+mod fillets;
 mod gauge;
 mod heights;
 mod metric;

@@ -6,6 +6,7 @@ use glam::DVec2;
 
 use super::Surface;
 use super::assumed::Depth;
+use super::camera::Relation;
 use super::circle::{DrawnCircle, circle_through};
 use super::directions::AGREE;
 use super::rows::{Tag, Unknowns};
@@ -34,14 +35,25 @@ pub(super) fn on_one_axis(sheet: &Sheet<'_>, _: &Unknowns, system: &mut System<T
             .collect();
         edges.sort_unstable();
         edges.dedup();
-        for k in 0..sheet.directions.axes.len() {
+        for k in 0..sheet.normals() {
             let mut centers = circles(sheet, &edges, k);
-            if centers.is_empty() {
+            let tips = tips(sheet, &edges);
+            // The tip of a drill may be all that lies on the axis.
+            if centers.is_empty() && tips.is_empty() {
                 continue;
             }
-            centers.extend(tips(sheet, &edges));
-            centers.extend(outlines(sheet, whole[0], &edges));
-            centers.extend(ring(sheet, &edges, k, whole[0], system));
+            let ring = ring(sheet, &edges, k, whole[0], system);
+            if centers.is_empty() && ring.is_none() {
+                continue;
+            }
+            if centers.is_empty() {
+                centers.extend(ring);
+                centers.extend(tips);
+            } else {
+                centers.extend(tips);
+                centers.extend(outlines(sheet, whole[0], &edges));
+                centers.extend(ring);
+            }
             link(sheet, &centers, k, whole[0], system);
         }
         bends(sheet, &edges, whole[0], system);
@@ -224,7 +236,7 @@ fn half_bends(sheet: &Sheet<'_>, edges: &[usize], face: usize, system: &mut Syst
     if sheet.faces[face].kind != SurfaceKind::Torus {
         return;
     }
-    for (k, axis) in sheet.directions.axes.iter().enumerate() {
+    for k in 0..sheet.normals() {
         let rings: Vec<(usize, DrawnCircle)> = edges
             .iter()
             .filter_map(|&e| {
@@ -235,23 +247,70 @@ fn half_bends(sheet: &Sheet<'_>, edges: &[usize], face: usize, system: &mut Syst
         let Some(&(first, own)) = rings.first() else {
             continue;
         };
-        let n = axis.direction;
+        let n = sheet.axis(k);
         for &(v, circle) in &rings[1..] {
             let apart = circle.center - own.center;
             let drawn = sheet.camera().drawn(n, own.center.midpoint(circle.center));
             let aside = apart.perp_dot(drawn.normalize_or_zero()).abs();
-            if (circle.radius - own.radius).abs() > 1e-3 * own.radius || aside < 0.1 * own.radius {
+            // In a central projection equal circles are drawn the larger the nearer they are.
+            let row = sheet.camera().across(n, own.center, circle.center);
+            let unequal = (circle.radius * row.to - own.radius * row.from).abs();
+            if unequal > 1e-3 * own.radius * row.from.abs() || aside < 0.1 * own.radius {
                 continue;
             }
             let (from, to) = (
                 center_of(sheet, first, k, &own),
                 center_of(sheet, v, k, &circle),
             );
-            let row = sheet.camera().across(n, own.center, circle.center);
             let weight = (from.error + to.error).recip();
             let tag = Tag::Revolved { face };
             from.depth.relate(&to.depth, row, weight, tag, system);
         }
+    }
+}
+
+/// The ends of a pipe that are no circles around one axis are equally large: in a central projection
+/// their heights are as their radii.
+pub(super) fn equal_ends(sheet: &Sheet<'_>, _: &Unknowns, system: &mut System<Tag>) {
+    if sheet.camera().is_parallel() {
+        return;
+    }
+    for (face, f) in sheet.faces.iter().enumerate() {
+        if !matches!(f.kind, SurfaceKind::Torus | SurfaceKind::Other) {
+            continue;
+        }
+        let rings: Vec<(usize, usize, DrawnCircle)> = sheet
+            .edges_of(face)
+            .iter()
+            .filter_map(|&e| {
+                let (k, circle) = sheet.circles[e]?;
+                Some((sheet.drawing.edges[e].v[0], k, circle))
+            })
+            .collect();
+        let [(first, k, own), (v, l, other)] = rings[..] else {
+            continue;
+        };
+        let from = center_of(sheet, first, k, &own);
+        let to = center_of(sheet, v, l, &other);
+        let apart = other.center - own.center;
+        let along = sheet
+            .camera()
+            .drawn(sheet.axis(k), own.center.midpoint(other.center));
+        let aside = apart.perp_dot(along.normalize_or_zero()).abs();
+        if k == l && aside < 0.1 * own.radius {
+            continue;
+        }
+        let size = (own.radius * other.radius).sqrt();
+        let row = Relation {
+            to: own.radius / size,
+            from: other.radius / size,
+            rise: 0.0,
+        };
+        let precision = sheet.directions.precision * (own.gain + other.gain) / size;
+        let error = sheet.camera().height(-sheet.size) * (precision + sheet.directions.error);
+        let tag = Tag::Revolved { face };
+        from.depth
+            .relate(&to.depth, row, error.recip(), tag, system);
     }
 }
 

@@ -4,6 +4,8 @@
 //! inverse depth in a central one ([`Camera`]), and (a, b, c) of every planar face,
 //! `h + a (x - x0) + b (y - y0) + c = 0` with (x0, y0) the mean of the face's vertices.
 
+use std::ops::Range;
+
 use glam::DVec3;
 
 #[cfg(doc)]
@@ -65,7 +67,7 @@ impl Unknowns {
         }
     }
 
-    pub(super) fn vertices(&self) -> std::ops::Range<usize> {
+    pub(super) fn vertices(&self) -> Range<usize> {
         0..self.vertices
     }
 
@@ -80,8 +82,9 @@ pub(super) fn certain(sheet: &Sheet<'_>, unknowns: &Unknowns) -> System<Tag> {
     incidence(sheet, unknowns, &mut system);
     edges(sheet, &mut system);
     alignment(sheet, unknowns, &mut system);
-    discs(sheet, unknowns, &mut system);
-    chords(sheet, &mut system);
+    let axes = sheet.directions.axes.len();
+    discs(sheet, unknowns, 0..axes, &mut system);
+    chords(sheet, 0..axes, &mut system);
     for &(face, k) in &sheet.ends {
         if let Some(p) = unknowns.plane(face) {
             let tag = Tag::Prism { face };
@@ -89,6 +92,13 @@ pub(super) fn certain(sheet: &Sheet<'_>, unknowns: &Unknowns) -> System<Tag> {
         }
     }
     system
+}
+
+/// The same of circles around the normals beside the axes, which may agree by chance.
+pub(super) fn beside_axes(sheet: &Sheet<'_>, unknowns: &Unknowns, system: &mut System<Tag>) {
+    let further = sheet.directions.axes.len()..sheet.normals();
+    discs(sheet, unknowns, further.clone(), system);
+    chords(sheet, further, system);
 }
 
 fn incidence(sheet: &Sheet<'_>, unknowns: &Unknowns, system: &mut System<Tag>) {
@@ -141,8 +151,19 @@ pub(super) fn normal_to(
     tag: Tag,
     system: &mut System<Tag>,
 ) {
+    normal_within(sheet, (face, p), (n, sheet.directions.error), tag, system);
+}
+
+/// The same of a direction with its standard error, radians.
+fn normal_within(
+    sheet: &Sheet<'_>,
+    (face, p): (usize, usize),
+    (n, error): (DVec3, f64),
+    tag: Tag,
+    system: &mut System<Tag>,
+) {
     let facing = sheet.camera().facing(n, sheet.middles[face]);
-    let weight = (sheet.directions.error / (facing * facing)).recip();
+    let weight = (error / (facing * facing)).recip();
     for (unknown, slope) in [(p, n.x / facing), (p + 1, n.y / facing)] {
         slope_row(sheet, (p, [(unknown, 1.0)]), slope, weight, tag, system);
     }
@@ -193,31 +214,34 @@ fn alignment(sheet: &Sheet<'_>, unknowns: &Unknowns, system: &mut System<Tag>) {
     }
 }
 
-fn discs(sheet: &Sheet<'_>, unknowns: &Unknowns, system: &mut System<Tag>) {
+fn discs(sheet: &Sheet<'_>, unknowns: &Unknowns, around: Range<usize>, system: &mut System<Tag>) {
     for face in 0..sheet.faces.len() {
         let Some(p) = unknowns.plane(face) else {
             continue;
         };
-        let mut seen = [false; 3];
+        let mut seen = vec![false; sheet.normals()];
         for &edge in sheet.edges_of(face) {
             if let Some((k, _)) = sheet.circles[edge] {
                 seen[k] = true;
             }
         }
-        for k in (0..3).filter(|&k| seen[k]) {
-            normal_to(sheet, face, p, sheet.axis(k), Tag::Disc { face }, system);
+        for k in around.clone().filter(|&k| seen[k]) {
+            let normal = (sheet.axis(k), sheet.directions.normal_error(k));
+            normal_within(sheet, (face, p), normal, Tag::Disc { face }, system);
         }
     }
 }
 
-fn chords(sheet: &Sheet<'_>, system: &mut System<Tag>) {
+fn chords(sheet: &Sheet<'_>, around: Range<usize>, system: &mut System<Tag>) {
     for (edge, e) in sheet.drawing.edges.iter().enumerate() {
-        if let (Some((k, _)), true) = (&sheet.circles[edge], e.v[0] != e.v[1]) {
+        if let (Some((k, _)), true) = (&sheet.circles[edge], e.v[0] != e.v[1])
+            && around.contains(k)
+        {
             let n = sheet.axis(*k);
             let [u, v] = e.v.map(|v| sheet.drawing.vertices[v]);
             let facing = sheet.camera().facing(n, u.midpoint(v)).abs();
             let error = sheet.directions.precision / facing
-                + sheet.directions.error * u.distance(v) / (facing * facing);
+                + sheet.directions.normal_error(*k) * u.distance(v) / (facing * facing);
             let row = sheet.camera().across(n, u, v);
             let terms = [(e.v[1], row.to), (e.v[0], -row.from)];
             system.push(terms, row.rise, error.recip(), Tag::Chord { edge });

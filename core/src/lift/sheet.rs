@@ -16,7 +16,7 @@ pub(super) struct Sheet<'a> {
     pub(super) size: f64,
     /// Axis of each straight edge.
     pub(super) edge_axis: Vec<Option<usize>>,
-    /// Axis that each arc is a circle around, with the circle.
+    /// Axis or further normal that each arc is a circle around, with the circle.
     pub(super) circles: Vec<Option<(usize, DrawnCircle)>>,
     /// Vertices of each face, sorted, each once.
     pub(super) corners: Vec<Vec<usize>>,
@@ -44,12 +44,14 @@ impl<'a> Sheet<'a> {
             for &e in &axis.edges {
                 edge_axis[e] = Some(k);
             }
-            for &e in &axis.circles {
+        }
+        for (k, (normal, arcs)) in directions.normals().enumerate() {
+            for &e in arcs {
                 let points = &drawing.edges[e].points;
                 let camera = &directions.camera;
-                let facing = camera.facing(axis.direction, points[points.len() / 2]);
+                let facing = camera.facing(normal, points[points.len() / 2]);
                 let tolerance = 3.0 * AGREE * directions.precision / facing.abs();
-                circles[e] = circle_through(points, axis.direction, camera)
+                circles[e] = circle_through(points, normal, camera)
                     .filter(|c| c.residual < tolerance + AGREE * directions.error * c.radius)
                     .map(|c| (k, c));
             }
@@ -115,8 +117,14 @@ impl<'a> Sheet<'a> {
         self.parallels = sets;
     }
 
+    /// Direction of an axis, or the normal that circles beside the axes have.
     pub(super) fn axis(&self, k: usize) -> DVec3 {
-        self.directions.axes[k].direction
+        self.directions.normal(k)
+    }
+
+    /// Number of axes and of normals that circles beside them have.
+    pub(super) fn normals(&self) -> usize {
+        self.directions.normals().count()
     }
 
     pub(super) fn camera(&self) -> &Camera {

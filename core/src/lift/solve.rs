@@ -13,6 +13,9 @@ use super::{LiftError, LiftMethod};
 /// Standard errors beyond which a row is wrong.
 const WRONG: f64 = 10.0;
 
+/// Openness of a row that adds to what is known.
+const OPEN: f64 = 2e-4;
+
 /// Rounds of weighing planes by their slope.
 const WEIGHINGS: usize = 3;
 
@@ -122,7 +125,7 @@ pub(super) fn solve(sheet: &Sheet<'_>) -> Result<Solved, LiftError> {
     if !vertices.is_empty() {
         return Err(LiftError::UnderConstrained { vertices });
     }
-    gauge::in_front(sheet, &solved.x)?;
+    gauge::in_front(sheet, &solved.null_space, &solved.x)?;
     Ok(solved)
 }
 
@@ -144,6 +147,7 @@ fn solve_rows(sheet: &Sheet<'_>, tie_parts: bool) -> Result<Solved, LiftError> {
     if !tie_parts {
         null_space = gauge::choose_parts(sheet, &mut system, null_space)?;
     }
+    let parallel = sheet.camera().is_parallel();
     for level in LEVELS {
         if loose(sheet, &unknowns, &null_space).is_empty() {
             break;
@@ -152,7 +156,10 @@ fn solve_rows(sheet: &Sheet<'_>, tie_parts: bool) -> Result<Solved, LiftError> {
         level(sheet, &unknowns, &mut more);
         let before = system.rows().len();
         for row in more.rows() {
-            if null_space.leaves_open(&row.terms) {
+            // Rows within a loose part of a central drawing disagree by their errors, and would say
+            // that all of it is nothing.
+            let open = parallel || null_space.openness(&row.terms) > OPEN;
+            if open && null_space.leaves_open(&row.terms) {
                 system.push(row.terms.iter().copied(), row.rhs, row.weight, row.tag);
             }
         }
@@ -168,7 +175,7 @@ fn solve_rows(sheet: &Sheet<'_>, tie_parts: bool) -> Result<Solved, LiftError> {
     let mut x = settle(&mut system, &unknowns, &base, &active)?;
     gauge::rescale(sheet, &null_space, &mut system, &mut x);
     let mut method = LiftMethod::Exact;
-    if agreeing(&system, &x).contains(&false) || gauge::in_front(sheet, &x).is_err() {
+    if agreeing(&system, &x).contains(&false) || gauge::in_front(sheet, &null_space, &x).is_err() {
         method = LiftMethod::L1;
         restore(&mut system, &base);
         gauge::release(&mut system);
@@ -184,6 +191,7 @@ fn solve_rows(sheet: &Sheet<'_>, tie_parts: bool) -> Result<Solved, LiftError> {
             }
             x = settle(&mut system, &unknowns, &base, &active)?;
         }
+        gauge::hold(sheet, &mut system);
         null_space = system.null_space_of(&active)?;
         gauge::rescale(sheet, &null_space, &mut system, &mut x);
     }

@@ -133,3 +133,30 @@ fn the_outlines_of_a_cone_follow_no_axis() {
     }
     assert_eq!(lines(&faces), 0);
 }
+
+/// Two blocks that nothing ties to each other have a scale each: the vertices of one are open, not all.
+#[test]
+fn only_the_vertices_of_the_loose_part_are_named() {
+    let mut scene = Scene::central(turned(0.6, 0.7, 0.1), DVec3::Z * -7.0, DVec2::ZERO, 3.0);
+    let base = polygon(&[[-1.0, -0.8], [1.0, -0.8], [1.0, 0.8], [-1.0, 0.8]]);
+    let far: Vec<DVec3> = [[1.3, 0.3], [1.7, 0.35], [1.6, 0.7]]
+        .map(|[x, y]| DVec3::new(x, y, 0.3))
+        .to_vec();
+    for (profile, along) in [(&base, DVec3::Z), (&far, DVec3::Z * 0.4)] {
+        let [low, high] = scene.prism(profile, along);
+        scene.face(SurfaceKind::Plane, &[low]);
+        scene.face(SurfaceKind::Plane, &[high]);
+    }
+    let (mut drawing, faces) = scene.finish();
+    // Coordinates of a file: the rows of the small part disagree a little.
+    let rounded = |p: &mut DVec2| *p = (*p * 1e6).round() / 1e6;
+    drawing.vertices.iter_mut().for_each(rounded);
+    for e in &mut drawing.edges {
+        e.points.iter_mut().for_each(rounded);
+    }
+    let refusal = lift(&drawing, &faces, &LiftOptions::default(), Progress::none());
+    let Err(crate::Error::Lift(LiftError::UnderConstrained { vertices })) = refusal else {
+        panic!("{refusal:?}");
+    };
+    assert_eq!(vertices, [8, 9, 10, 11, 12, 13]);
+}

@@ -40,13 +40,18 @@ pub struct Axis {
     pub circles: Vec<usize>,
 }
 
-/// A further direction that straight edges have, told by their vanishing point.
+/// A further direction that straight edges have, told by their vanishing point, or that circles have
+/// as their normal.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Slant {
     /// Unit vector in the camera frame, of no meaning of its sign.
     pub direction: DVec3,
     /// Straight edges (from 0) along it.
     pub edges: Vec<usize>,
+    /// Elliptic arcs (edges, from 0) that are drawn as circles around it.
+    pub circles: Vec<usize>,
+    /// Its standard error, radians.
+    pub error: f64,
     /// Whether it makes a usual angle with two axes and a right one with the third. If not, the
     /// edges may as well meet in a point of space.
     pub usual: bool,
@@ -112,6 +117,28 @@ impl Directions {
     /// The axis that an arc (edge, from 0) is drawn as a circle around.
     pub fn axis_of_circle(&self, edge: usize) -> Option<usize> {
         self.axes.iter().position(|a| a.circles.contains(&edge))
+    }
+
+    /// What circles are drawn around, with the arcs: the axes, then the further directions.
+    pub(crate) fn normals(&self) -> impl Iterator<Item = (DVec3, &[usize])> {
+        let axes = self.axes.iter().map(|a| (a.direction, &a.circles[..]));
+        axes.chain(self.slanted.iter().map(|s| (s.direction, &s.circles[..])))
+    }
+
+    /// Direction of one of the [`normals`](Self::normals).
+    pub(crate) fn normal(&self, k: usize) -> DVec3 {
+        match self.axes.get(k) {
+            Some(axis) => axis.direction,
+            None => self.slanted[k - self.axes.len()].direction,
+        }
+    }
+
+    /// Its standard error, radians.
+    pub(crate) fn normal_error(&self, k: usize) -> f64 {
+        match k.checked_sub(self.axes.len()) {
+            None => self.error,
+            Some(k) => self.slanted[k].error,
+        }
     }
 
     /// The same directions mirrored in depth.

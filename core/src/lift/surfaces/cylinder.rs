@@ -116,7 +116,7 @@ fn outlines<'a>(sheet: &'a Sheet<'_>, face: usize) -> impl Iterator<Item = usize
 
 /// Circle through `p` whose centre lies along `side` from it, closest to the other points: a point
 /// q on it has `|q - p|^2 = 2 r side.(q - p)`.
-fn touching(points: &[DVec2], p: DVec2, side: DVec2) -> Option<(DVec2, f64)> {
+pub(in crate::lift) fn touching(points: &[DVec2], p: DVec2, side: DVec2) -> Option<(DVec2, f64)> {
     let (mut top, mut bottom) = (0.0, 0.0);
     for q in points.iter().map(|q| *q - p) {
         let s = 2.0 * side.dot(q);

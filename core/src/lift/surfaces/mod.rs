@@ -26,6 +26,7 @@ use super::Surface;
 use super::heights::Heights;
 use super::sheet::Sheet;
 use crate::drawing::SurfaceKind;
+pub(super) use cylinder::touching as touching_circle;
 use evidence::Evidence;
 pub(super) use flat::best_plane;
 pub(super) use truth::true_surfaces;

@@ -37,6 +37,9 @@ impl<T> Row<T> {
     }
 }
 
+/// Squared singular value, as a share of the largest, that is never left open.
+const MOST_OPEN: f64 = 2e-8;
+
 /// A list of rows over a fixed number of unknowns.
 ///
 /// ```
@@ -58,6 +61,8 @@ pub struct System<T> {
     floors: Vec<(usize, f64)>,
     /// Unknowns with their sum; the L1 norm alone heeds it.
     total: Option<(Vec<usize>, f64)>,
+    /// How much rows may say of a direction that counts as left open, see [`Self::blur`].
+    open: f64,
 }
 
 /// What a solve gives.
@@ -90,6 +95,7 @@ impl<T> System<T> {
             rows: Vec::new(),
             floors: Vec::new(),
             total: None,
+            open: normal::EPS,
         }
     }
 
@@ -102,6 +108,19 @@ impl<T> System<T> {
     pub const fn add_unknown(&mut self) -> usize {
         self.unknowns += 1;
         self.unknowns - 1
+    }
+
+    /// Takes all [`blur`](Self::blur) back.
+    pub const fn sharpen(&mut self) {
+        self.open = normal::EPS;
+    }
+
+    /// Makes what counts as left open 10 times more, in squared singular values, and says whether
+    /// that is sensible still: rows without right-hand sides that disagree by their errors say of a
+    /// loose part that all of it is zero.
+    pub fn blur(&mut self) -> bool {
+        self.open *= 10.0;
+        self.open < MOST_OPEN
     }
 
     /// Keeps an unknown from falling below a value in the L1 norm; least squares does not heed it.

@@ -10,7 +10,7 @@ use super::{LiftError, NullSpace, Row, System};
 /// Added to the diagonal of the scaled normal matrix, whose diagonal is 1. A direction in which the
 /// rows say less than this (a singular value below 3e-6 of the largest) counts as left open: data
 /// rounded to 1e-6 of the size would give it an error of about the size.
-const EPS: f64 = 1e-11;
+pub(super) const EPS: f64 = 1e-11;
 
 /// Steps of iterative refinement; each shrinks the error that `EPS` brings by the factor
 /// `EPS / (EPS + eigenvalue)`.
@@ -69,7 +69,7 @@ pub(super) fn solve_as<T>(
     active: &[bool],
     pattern: &Pattern,
 ) -> Result<Vec<f64>, LiftError> {
-    let factor = Factor::new(system, active, pattern, |row| row.weight)?;
+    let factor = Factor::new(system, active, pattern, EPS, |row| row.weight)?;
     let n = system.unknowns();
     let mut x = vec![0.0; n];
     for _ in 0..=REFINEMENTS {
@@ -104,7 +104,7 @@ pub(super) fn null_space<T>(system: &System<T>, active: &[bool]) -> Result<NullS
         }
     };
     let pattern = Pattern::new(system, active)?;
-    Ok(Factor::new(system, active, &pattern, unit)?.null_space())
+    Ok(Factor::new(system, active, &pattern, system.open, unit)?.null_space())
 }
 
 fn used<'a, T>(system: &'a System<T>, active: &'a [bool]) -> impl Iterator<Item = &'a Row<T>> {
@@ -118,6 +118,8 @@ struct Factor {
     llt: Llt<usize, f64>,
     /// Reciprocal column lengths of the weighted matrix; 1 for empty columns.
     scale: Vec<f64>,
+    /// What was added to the diagonal.
+    eps: f64,
 }
 
 impl Factor {
@@ -125,6 +127,7 @@ impl Factor {
         system: &System<T>,
         active: &[bool],
         pattern: &Pattern,
+        eps: f64,
         weight: impl Fn(&Row<T>) -> f64,
     ) -> Result<Self, LiftError> {
         let n = system.unknowns();
@@ -139,7 +142,7 @@ impl Factor {
             .map(|&d| if d > 0.0 { d.sqrt().recip() } else { 1.0 })
             .collect();
         let mut values = Vec::with_capacity(pattern.count);
-        values.resize(n, EPS);
+        values.resize(n, eps);
         for row in used(system, active) {
             let w = weight(row).powi(2);
             for (k, &(i, a)) in row.terms.iter().enumerate() {
@@ -156,7 +159,7 @@ impl Factor {
                 .map_err(|e| LiftError::Solver(format!("{e:?}")))?;
         let llt = Llt::try_new_with_symbolic(pattern.llt.clone(), matrix.as_ref(), Side::Lower)
             .map_err(|e| LiftError::Solver(format!("factorisation: {e:?}")))?;
-        Ok(Self { llt, scale })
+        Ok(Self { llt, scale, eps })
     }
 
     /// Inverse iteration on a block of pseudo-random vectors: what survives is null space.
@@ -167,7 +170,7 @@ impl Factor {
             let mut block = Mat::from_fn(n, width, noise);
             for _ in 0..INVERSE_STEPS {
                 block = self.llt.solve(&block);
-                block *= faer::Scale(EPS);
+                block *= faer::Scale(self.eps);
             }
             let basis = independent_columns(&block);
             if basis.len() < width || width == n {

@@ -56,4 +56,36 @@ impl NullSpace {
             moved.abs() > self.zero * size
         })
     }
+
+    /// Share of the most that `sum(terms)` can change by, were its terms to change each by itself, that
+    /// it does change by: 1 for a term that nothing ties to the others, and no more than the errors of
+    /// the rows if they tie the terms to each other. Whichever basis the null space has, it is one.
+    pub fn openness(&self, terms: &[(usize, f64)]) -> f64 {
+        let length = |vector: &[f64]| vector.iter().map(|c| c * c).sum::<f64>().sqrt();
+        let mut sum = vec![0.0; self.dimension];
+        let mut most = 0.0;
+        for &(i, c) in terms {
+            let shares = &self.shares[i];
+            sum.iter_mut().zip(shares).for_each(|(s, x)| *s += c * x);
+            most += c.abs() * length(shares);
+        }
+        if most > 0.0 { length(&sum) / most } else { 0.0 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_term_is_open_and_a_tie_with_its_error_is_not() {
+        // Two unknowns that grow together but for an error, and a third by itself.
+        let basis = [vec![0.8, 0.6, 0.0], vec![0.0, 0.0, 1.0]];
+        let null_space = NullSpace::new(&basis, &[1.0; 3]);
+        assert!((null_space.openness(&[(0, 2.0)]) - 1.0).abs() < 1e-12);
+        let tie = [(0, 0.6), (1, -0.8 * (1.0 + 1e-5))];
+        assert!(null_space.leaves_open(&tie));
+        assert!(null_space.openness(&tie) < 1e-5);
+        assert!(null_space.openness(&[(0, 1.0), (2, -1.0)]) > 0.5);
+    }
 }

@@ -1,6 +1,6 @@
 //! Normals of circles in perspective.
 
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 
 use super::eigen;
 use crate::drawing::{Curve2, Drawing, EllipseArc};
@@ -24,6 +24,9 @@ pub(super) struct Circle {
     pub(super) normals: [DVec3; 2],
     /// Their standard error, radians.
     pub(super) error: f64,
+    /// Middle of the ellipse, and its larger half axis.
+    center: DVec2,
+    reach: f64,
 }
 
 impl Circle {
@@ -74,7 +77,7 @@ fn of_ellipse(edge: usize, arc: &EllipseArc, camera: &Camera, precision: f64) ->
         return None;
     };
     // On the cone u^2 + v^2 = t^2 with linear forms in space: the ellipse's own coordinates times t.
-    let form = |axis: glam::DVec2| {
+    let form = |axis: DVec2| {
         let a = axis / axis.length_squared();
         a.extend(a.dot(arc.center - principal) / focal)
     };
@@ -95,6 +98,8 @@ fn of_ellipse(edge: usize, arc: &EllipseArc, camera: &Camera, precision: f64) ->
         edge,
         normals,
         error: (arc.uncertainty + precision / arc.major.length()) / slant,
+        center: arc.center,
+        reach: arc.major.length(),
     })
 }
 
@@ -133,12 +138,80 @@ pub(super) fn groups(circles: &[Circle]) -> Vec<Group> {
     all
 }
 
+/// Fewest circles beside each other that tell a normal, and the share of the larger one's size that
+/// they are apart.
+const BESIDE: usize = 2;
+const APART: f64 = 0.1;
+
+/// The normal that most circles beside each other have, if no other explains as many of them.
+pub(super) fn apart(circles: &[Circle]) -> Option<Group> {
+    let places = |group: &Group| {
+        let mut seen: Vec<&Circle> = Vec::new();
+        for circle in group.members.iter().map(|&i| &circles[i]) {
+            let is_apart =
+                |s: &&Circle| s.center.distance(circle.center) > APART * s.reach.max(circle.reach);
+            if seen.iter().all(is_apart) {
+                seen.push(circle);
+            }
+        }
+        seen.len()
+    };
+    let all = groups(circles);
+    let mut ranked: Vec<(usize, &Group)> = all.iter().map(|g| (places(g), g)).collect();
+    ranked.sort_by_key(|(places, _)| std::cmp::Reverse(*places));
+    let (most, first) = *ranked.first()?;
+    let rival = ranked[1..]
+        .iter()
+        .any(|(places, g)| *places == most && g.members.iter().any(|m| first.members.contains(m)));
+    (most >= BESIDE && !rival).then(|| first.clone())
+}
+
 #[cfg(test)]
 mod tests {
-    use glam::DVec2;
     use proptest::prelude::*;
 
     use super::*;
+
+    /// Four circles around two normals, and one around a third.
+    #[test]
+    fn circles_beside_each_other_tell_their_normal() {
+        let camera = Camera::Central {
+            principal: DVec2::ZERO,
+            focal: 2.5,
+        };
+        let [n, m, alone] = [[0.3, 0.5, 0.8], [0.9, -0.2, 0.3], [-0.5, 0.6, 0.4]]
+            .map(|n| DVec3::from_array(n).normalize());
+        let circle = |edge: usize, n: DVec3, center: [f64; 3]| {
+            let (u, w) = n.any_orthonormal_pair();
+            let points: Vec<DVec2> = (0..=24)
+                .map(|i| 0.2 * f64::from(i))
+                .map(|t| DVec3::from_array(center) + 0.3 * (t.cos() * u + t.sin() * w))
+                .map(|p| camera.project(p))
+                .collect();
+            let Curve2::Ellipse(arc) = Curve2::recognise(&points) else {
+                panic!("no ellipse");
+            };
+            of_ellipse(edge, &arc, &camera, 1e-6).unwrap()
+        };
+        let mut all = vec![
+            circle(0, n, [0.0, 0.0, -3.0]),
+            circle(1, n, [0.6, 0.4, -3.5]),
+            circle(2, m, [-0.7, 0.2, -3.2]),
+            circle(3, m, [0.1, -0.8, -3.9]),
+            circle(4, m, [0.9, -0.6, -3.1]),
+            circle(5, alone, [-0.5, -0.5, -3.3]),
+        ];
+        let first = apart(&all).unwrap();
+        assert_eq!(first.members.len(), 3);
+        assert!(first.normal.cross(m).length() < 1e-5);
+        all.drain(2..5);
+        let second = apart(&all).unwrap();
+        assert!(second.normal.cross(n).length() < 1e-5);
+        all.remove(1);
+        // Two arcs of one circle have both of its normals.
+        all.push(circle(6, n, [0.0, 0.0, -3.0]));
+        assert!(apart(&all).is_none());
+    }
 
     proptest! {
         #[test]

@@ -118,6 +118,7 @@ pub(super) fn candidates(
         .map(|mut r| {
             let lines = Lines::new(drawing, r.directions.precision);
             reading::add_pencils(&lines, &mut r.directions);
+            reading::add_normals(&lines, drawing, &mut r.directions);
             r.directions
         })
         .collect();

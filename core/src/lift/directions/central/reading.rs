@@ -28,6 +28,10 @@ const STRAY_CIRCLE: f64 = 1.0;
 /// Standard error, radians, of a normal that is certain.
 const SURE: f64 = 1e-3;
 
+/// Standard error, radians, of a circle's normal up to which others agree with it by chance seldom
+/// enough.
+const CLEAR: f64 = 2e-4;
+
 /// What an axis adds whose lines are drawn vertically, but for their vanishing point.
 const UPRIGHT: f64 = 1.0;
 
@@ -132,6 +136,8 @@ fn frame_reading(lines: &Lines, round: &[Circle], f: &Fitted, open: Open) -> Opt
                 None => slanted.push(Slant {
                     direction,
                     edges: vec![line.edge],
+                    circles: Vec::new(),
+                    error: f.error,
                     usual: true,
                 }),
             }
@@ -176,10 +182,32 @@ pub(super) fn add_pencils(lines: &Lines, directions: &mut Directions) {
     let slant = |p: Pencil| Slant {
         direction: p.direction,
         edges: p.members.iter().map(|&i| lines.all[i].edge).collect(),
+        circles: Vec::new(),
+        error: p.error,
         usual: false,
     };
     let found = pencils(lines, &directions.camera, &used);
     directions.slanted.extend(found.into_iter().map(slant));
+}
+
+/// Adds the normals of the circles that are around no axis. The false normals of two circles agree
+/// only where both are drawn around one point, as the two arcs are that an outline parts, so that
+/// circles apart are asked for, and more of them than any other normal has.
+pub(super) fn add_normals(lines: &Lines, drawing: &Drawing, directions: &mut Directions) {
+    let used = |e: usize| directions.axes.iter().any(|a| a.circles.contains(&e));
+    let mut round = circles::circles(drawing, &directions.camera, lines.precision);
+    round.retain(|c| c.error < CLEAR && !used(c.edge));
+    while let Some(group) = circles::apart(&round) {
+        let edges: Vec<usize> = group.members.iter().map(|&i| round[i].edge).collect();
+        round.retain(|c| !edges.contains(&c.edge));
+        directions.slanted.push(Slant {
+            direction: towards_viewer(group.normal),
+            edges: Vec::new(),
+            circles: edges,
+            error: group.error,
+            usual: false,
+        });
+    }
 }
 
 /// One axis alone, of circles and the lines along it.
