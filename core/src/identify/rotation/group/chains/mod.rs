@@ -138,6 +138,12 @@ impl Chain {
             let off = rings[b].shift - rings[a].shift - link.offset;
             let (p, q) = (&shapes.loops[link.outer], &shapes.loops[link.inner]);
             let circles = shapes.parts[p.part].is_circle && shapes.parts[q.part].is_circle;
+            // A loop of a sphere that is no circle has some of its outline, of which a sphere's face
+            // has one.
+            let outlined = |o: &Outline| o.kind == SurfaceKind::Sphere && o.curved && !o.ring;
+            if outlined(p) && outlined(q) {
+                continue;
+            }
             // Either loop of a circle stands for the other.
             if p.part == q.part
                 || off.abs() > 2.0 * shapes.slack(link.error)
