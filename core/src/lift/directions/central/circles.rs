@@ -198,7 +198,7 @@ mod tests {
             circle(1, n, [0.6, 0.4, -3.5]),
             circle(2, m, [-0.7, 0.2, -3.2]),
             circle(3, m, [0.1, -0.8, -3.9]),
-            circle(4, m, [0.9, -0.6, -3.1]),
+            circle(4, m, [-0.2, 0.9, -3.1]),
             circle(5, alone, [-0.5, -0.5, -3.3]),
         ];
         let first = apart(&all).unwrap();
