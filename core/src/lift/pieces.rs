@@ -11,7 +11,7 @@ use super::sheet::Sheet;
 use super::solve::{self, Solved};
 use super::straight::{Straight, ends, straightened};
 use super::{Camera, LiftError};
-use crate::drawing::Drawing;
+use crate::drawing::{Curve2, Drawing, Edge};
 use crate::identify::Face;
 
 /// Sine of the angle below which neighbouring planes are one.
@@ -118,7 +118,8 @@ impl Pieces {
             let sheet = Sheet::new(readings.drawing, faces, directions);
             take(solve::solve_parts(&sheet).map(|solved| {
                 let drawing = Cow::Borrowed(readings.drawing);
-                (solved.dropped(), drawing, Self::of(&sheet, solved))
+                let wrong = solved.dropped() + oblique(&sheet);
+                (wrong, drawing, Self::of(&sheet, solved))
             }))
         }) || straight.any(|s| take(Self::by_hand(readings.drawing, s, faces)));
         match (best, refusal) {
@@ -153,11 +154,15 @@ impl Pieces {
     }
 
     fn of(sheet: &Sheet<'_>, solved: Solved) -> Self {
+        let axes: Vec<DVec3> = sheet.directions.axes.iter().map(|a| a.direction).collect();
+        // Not those around normals beside the axes, which are assumed.
+        let around = |c: &Option<_>| c.filter(|(k, _): &(usize, DrawnCircle)| *k < axes.len());
+        let circles = sheet.circles.iter().map(around).collect();
         Self {
             solved,
             middles: sheet.middles.clone(),
-            axes: sheet.directions.axes.iter().map(|a| a.direction).collect(),
-            circles: sheet.circles.clone(),
+            axes,
+            circles,
             camera: *sheet.camera(),
             precision: sheet.directions.precision,
         }
@@ -184,6 +189,16 @@ impl Pieces {
             camera: self.camera,
         })
     }
+}
+
+/// Number of arcs that are no circles around an axis of the reading: a frame that straight edges tell
+/// by chance explains no circles.
+fn oblique(sheet: &Sheet<'_>) -> usize {
+    let edges = sheet.drawing.edges.iter().zip(&sheet.circles);
+    let is_oblique = |(edge, circle): &(&Edge, &Option<_>)| {
+        matches!(edge.curve, Curve2::Ellipse(_)) && circle.is_none()
+    };
+    edges.filter(is_oblique).count()
 }
 
 /// Number of edges between planes that are one: what is read wrongly is often flat.
