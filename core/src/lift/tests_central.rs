@@ -160,3 +160,30 @@ fn only_the_vertices_of_the_loose_part_are_named() {
     };
     assert_eq!(vertices, [8, 9, 10, 11, 12, 13]);
 }
+
+/// Holes across a block's axes show a normal of their own. It is assumed, so that grouping, which
+/// knows the axes only, sees no circles around it.
+#[test]
+fn circles_beside_the_axes_stay_out_of_grouping() {
+    let mut scene = Scene::central(turned(0.6, 0.7, 0.1), DVec3::Z * -7.0, DVec2::ZERO, 3.0);
+    let base = polygon(&[[-1.0, -0.8], [1.0, -0.8], [1.0, 0.8], [-1.0, 0.8]]);
+    let [low, high] = scene.prism(&base, DVec3::Z);
+    scene.face(SurfaceKind::Plane, &[low]);
+    scene.face(SurfaceKind::Plane, &[high]);
+    let across = DVec3::new(0.5, 0.3, 0.8).normalize() * 0.4;
+    for center in [[-0.6, -0.4], [0.0, 0.3], [0.6, -0.3], [-0.5, 0.4]] {
+        let center = DVec3::new(center[0], center[1], 0.3);
+        for circle in scene.wall(center, across, 0.12) {
+            scene.face(SurfaceKind::Plane, &[circle]);
+        }
+    }
+    let (drawing, faces) = scene.finish();
+    let further = |d: &Directions| d.normals().count() > d.axes.len();
+    let candidates = Directions::candidates(&drawing).unwrap();
+    assert!(candidates.iter().any(further));
+    let readings = Readings::new(&drawing);
+    let (_, pieces) = Pieces::new(&readings, &faces).unwrap();
+    for e in 0..drawing.edges.len() {
+        assert!(pieces.circle(e).is_none_or(|(k, _)| k < pieces.axes.len()));
+    }
+}
