@@ -57,16 +57,20 @@ impl Joiner<'_> {
         Some(places.fold(start, |(l, h), p| (l.min(p), h.max(p))))
     }
 
+    /// Extents of the outer and the inner loop of a link in their plane, if it is one.
+    fn extents(&self, link: &Link) -> Option<[(DVec2, DVec2); 2]> {
+        let extent = |i| self.extent(link.outer, i);
+        (link.kind == LinkKind::Coplanar)
+            .then(|| extent(link.outer).zip(extent(link.inner)))
+            .flatten()
+            .map(<[_; 2]>::from)
+    }
+
     /// Parts are laid out in round numbers, so that the places of walls and middles are round
     /// fractions of the face's extents. For each of the two directions the log-odds of the roundest
     /// against chance.
     pub(super) fn roundness(&self, link: &Link) -> f64 {
-        if link.kind != LinkKind::Coplanar {
-            return 0.0;
-        }
-        let [Some((a, b)), Some((c, d))] =
-            [link.outer, link.inner].map(|i| self.extent(link.outer, i))
-        else {
+        let Some([(a, b), (c, d)]) = self.extents(link) else {
             return 0.0;
         };
         let evidence = |k: usize| {
@@ -85,12 +89,7 @@ impl Joiner<'_> {
     /// How thin the wall between a loop and the outline of its face is, in their plane along its
     /// axes: 1 if there is none, falling with its share of the face's extent.
     pub(super) fn thinness(&self, link: &Link) -> f64 {
-        if link.kind != LinkKind::Coplanar {
-            return 0.0;
-        }
-        let [Some((a, b)), Some((c, d))] =
-            [link.outer, link.inner].map(|i| self.extent(link.outer, i))
-        else {
+        let Some([(a, b), (c, d)]) = self.extents(link) else {
             return 0.0;
         };
         let thin = |k: usize| (c[k] - a[k]).min(b[k] - d[k]) / (b[k] - a[k]);
