@@ -1,6 +1,6 @@
 //! Right angles of the truth that a lift has exactly.
 
-use faceformer::drawing::Drawing;
+use faceformer::drawing::{CoEdge, Drawing};
 use faceformer::identify::Face;
 use faceformer::lift::{Lift, Surface, true_lift};
 
@@ -41,7 +41,7 @@ impl RightAngles {
 /// Faces at every edge.
 fn sides<'a>(
     drawing: &Drawing,
-    faces: impl Iterator<Item = &'a Vec<Vec<faceformer::drawing::CoEdge>>>,
+    faces: impl Iterator<Item = &'a Vec<Vec<CoEdge>>>,
 ) -> Vec<Vec<usize>> {
     let mut sides = vec![Vec::new(); drawing.edges.len()];
     for (face, loops) in faces.enumerate() {

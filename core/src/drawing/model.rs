@@ -172,4 +172,94 @@ impl Drawing {
             0.0
         }
     }
+
+    /// The same drawing with other numbers, its truth too: `vertices` and `edges` hold the present
+    /// index of each vertex and edge, in the new order.
+    ///
+    /// # Panics
+    /// If a list does not hold each index once.
+    #[must_use]
+    pub fn renumbered(&self, vertices: &[usize], edges: &[usize]) -> Self {
+        let [vertex, edge] = [inverse(vertices), inverse(edges)];
+        assert_eq!(
+            [vertex.len(), edge.len()],
+            [self.vertices.len(), self.edges.len()]
+        );
+        let truth = self.truth.as_ref().map(|truth| {
+            let mut truth = truth.clone();
+            for c in truth.faces.iter_mut().flat_map(|f| &mut f.loops).flatten() {
+                *c = CoEdge::new(edge[c.edge()], c.is_reversed());
+            }
+            if !truth.vertices3d.is_empty() {
+                truth.vertices3d = vertices.iter().map(|&v| truth.vertices3d[v]).collect();
+            }
+            if !truth.edges3d.is_empty() {
+                let polylines = edges.iter().map(|&e| truth.edges3d[e].clone());
+                truth.edges3d = polylines.collect();
+            }
+            truth
+        });
+        let moved = |&old: &usize| {
+            let old = &self.edges[old];
+            Edge {
+                v: old.v.map(|v| vertex[v]),
+                ..old.clone()
+            }
+        };
+        Self {
+            vertices: vertices.iter().map(|&v| self.vertices[v]).collect(),
+            edges: edges.iter().map(moved).collect(),
+            truth,
+            ..self.clone()
+        }
+    }
+}
+
+/// Where each index is in a list that holds each once.
+fn inverse(list: &[usize]) -> Vec<usize> {
+    let mut inverse = vec![usize::MAX; list.len()];
+    for (k, &i) in list.iter().enumerate() {
+        inverse[i] = k;
+    }
+    assert!(!inverse.contains(&usize::MAX), "an index is missing");
+    inverse
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn other_numbers_name_the_same_things() {
+        let edge = |v: [usize; 2]| Edge {
+            v,
+            points: v.map(|v| DVec2::splat(v as f64)).to_vec(),
+            curve: Curve2::Line,
+        };
+        let loops = vec![vec![CoEdge::new(0, false), CoEdge::new(2, true)]];
+        let kind = SurfaceKind::Plane;
+        let drawing = Drawing {
+            id: String::new(),
+            source: String::new(),
+            projection: Projection::Orthographic,
+            vertices: [0.0, 1.0, 2.0].map(DVec2::splat).to_vec(),
+            edges: [[0, 1], [1, 2], [2, 0]].map(edge).to_vec(),
+            truth: Some(Truth {
+                faces: vec![TruthFace { kind, loops }],
+                vertices3d: [0.0, 1.0, 2.0].map(DVec3::splat).to_vec(),
+                ..Truth::default()
+            }),
+        };
+        let other = drawing.renumbered(&[2, 0, 1], &[1, 2, 0]);
+        assert_eq!(other.vertices, [2.0, 0.0, 1.0].map(DVec2::splat));
+        for edge in &other.edges {
+            assert_eq!(edge.points, edge.v.map(|v| other.vertices[v]));
+        }
+        let truth = other.truth.as_ref().unwrap();
+        assert_eq!(truth.vertices3d, [2.0, 0.0, 1.0].map(DVec3::splat));
+        let walk = [CoEdge::new(2, false), CoEdge::new(1, true)];
+        assert_eq!(truth.faces[0].loops[0], walk);
+        // Back again.
+        assert_eq!(other.renumbered(&[1, 2, 0], &[2, 0, 1]), drawing);
+    }
 }

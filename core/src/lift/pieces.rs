@@ -76,13 +76,16 @@ pub(crate) struct Tilt {
 impl Tilt {
     /// [Level](Camera::level) of a drawn point.
     pub(crate) fn level(&self, p: DVec2) -> f64 {
-        self.camera.level(-(self.a * p.x + self.b * p.y + self.c))
+        self.camera.level(self.height(p))
+    }
+
+    fn height(&self, p: DVec2) -> f64 {
+        -(self.a * p.x + self.b * p.y + self.c)
     }
 
     /// The point of the plane that is drawn at `p`.
     pub(crate) fn place(&self, p: DVec2) -> DVec3 {
-        let height = -(self.a * p.x + self.b * p.y + self.c);
-        self.camera.place(p, self.camera.depth(height))
+        self.camera.place(p, self.camera.depth(self.height(p)))
     }
 
     /// Unit normal; of which side is left open.
@@ -104,29 +107,37 @@ impl Pieces {
     ) -> Result<(Cow<'a, Drawing>, Self), LiftError> {
         let mut best: Option<(usize, Cow<'a, Drawing>, Self)> = None;
         let mut refusal = None;
-        let mut take = |found: Result<(usize, Cow<'a, Drawing>, Self), LiftError>| {
+        let exact = readings.exact.iter();
+        let exact = exact.map(|directions| Self::exact(readings.drawing, directions, faces));
+        let straight = readings.straight.iter();
+        let by_hand = straight.map(|s| Self::by_hand(readings.drawing, s, faces));
+        for found in exact.chain(by_hand) {
             match found {
                 Ok(own) if best.as_ref().is_none_or(|b| 2 * own.0 < b.0) => best = Some(own),
                 Ok(_) => {}
                 Err(error) => refusal = Some(error),
             }
-            best.as_ref().is_some_and(|b| b.0 == 0)
-        };
-        let mut exact = readings.exact.iter();
-        let mut straight = readings.straight.iter();
-        let _ = exact.any(|directions| {
-            let sheet = Sheet::new(readings.drawing, faces, directions);
-            take(solve::solve_parts(&sheet).map(|solved| {
-                let drawing = Cow::Borrowed(readings.drawing);
-                let wrong = solved.dropped() + oblique(&sheet);
-                (wrong, drawing, Self::of(&sheet, solved))
-            }))
-        }) || straight.any(|s| take(Self::by_hand(readings.drawing, s, faces)));
+            if best.as_ref().is_some_and(|b| b.0 == 0) {
+                break;
+            }
+        }
         match (best, refusal) {
             (Some((_, drawing, pieces)), _) => Ok((drawing, pieces)),
             (None, Some(error)) => Err(error),
             (None, None) => Err(LiftError::NoDirections("no reading".into())),
         }
+    }
+
+    /// Lifts an exact drawing by one reading; also how many arcs and rows contradict it.
+    fn exact<'a>(
+        drawing: &'a Drawing,
+        directions: &Directions,
+        faces: &[Face],
+    ) -> Result<(usize, Cow<'a, Drawing>, Self), LiftError> {
+        let sheet = Sheet::new(drawing, faces, directions);
+        let solved = solve::solve_parts(&sheet)?;
+        let wrong = solved.dropped() + oblique(&sheet);
+        Ok((wrong, Cow::Borrowed(drawing), Self::of(&sheet, solved)))
     }
 
     /// Lifts a drawing by hand by one reading; also how many edges and rows contradict it.

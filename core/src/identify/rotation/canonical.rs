@@ -25,9 +25,8 @@ pub(super) struct Canonical {
 }
 
 impl Canonical {
-    pub(super) fn new(drawing: &Drawing) -> Self {
+    pub(super) fn new(drawing: &Drawing, graph: &Graph) -> Self {
         let measure = Measure::new(&drawing.vertices);
-        let graph = Graph::new(drawing);
         let lengths: Vec<i64> = drawing.edges.iter().map(|e| measure.length(e)).collect();
         let around = |v: usize| {
             let own = graph.leaving(v).iter().map(|c| lengths[c.edge()]);
@@ -62,19 +61,11 @@ impl Canonical {
             let [p, q] = [a, b].map(|e| middle(&drawing.edges[e]));
             keys[a].cmp(&keys[b]).then_with(|| by_place(p, q))
         });
-        let edge = |&old: &usize| {
-            let old = drawing.edges[old].clone();
-            let v = old.v.map(|v| rank[v]);
-            Edge { v, ..old }
-        };
+        let drawing = drawing.renumbered(&vertices, &edges);
         Self {
             drawing: Drawing {
-                id: drawing.id.clone(),
-                source: drawing.source.clone(),
-                projection: drawing.projection,
-                vertices: vertices.iter().map(|&v| drawing.vertices[v]).collect(),
-                edges: edges.iter().map(edge).collect(),
                 truth: None,
+                ..drawing
             },
             vertices,
             edges,
@@ -137,9 +128,7 @@ impl Measure {
     }
 
     fn length(&self, edge: &Edge) -> i64 {
-        let points = &edge.points;
-        let spans = points.windows(2).map(|w| w[0].distance(w[1]));
-        (spans.sum::<f64>() * self.scale).round() as i64
+        (edge.length() * self.scale).round() as i64
     }
 }
 
@@ -161,28 +150,21 @@ mod tests {
 
     /// The drawing with its edges in reverse order and its vertices shifted.
     fn renumbered(drawing: &Drawing) -> Drawing {
-        let n = drawing.vertices.len();
-        let shifted = |v: usize| (v + 3) % n;
-        let mut vertices = drawing.vertices.clone();
+        let mut vertices: Vec<usize> = (0..drawing.vertices.len()).collect();
         vertices.rotate_right(3);
-        let edges = drawing.edges.iter().rev();
-        let edges = edges.map(|e| Edge {
-            v: e.v.map(shifted),
-            ..e.clone()
-        });
-        Drawing {
-            vertices,
-            edges: edges.collect(),
-            truth: None,
-            ..drawing.clone()
-        }
+        let edges: Vec<usize> = (0..drawing.edges.len()).rev().collect();
+        drawing.renumbered(&vertices, &edges)
+    }
+
+    fn canonical(drawing: &Drawing) -> Canonical {
+        Canonical::new(drawing, &Graph::new(drawing))
     }
 
     #[test]
     fn the_order_given_does_not_matter() {
         for drawing in [testing::bracket(), testing::holed_cube(), testing::wedge()] {
-            let plain = Canonical::new(&drawing).drawing;
-            let other = Canonical::new(&renumbered(&drawing)).drawing;
+            let plain = canonical(&drawing).drawing;
+            let other = canonical(&renumbered(&drawing)).drawing;
             assert_eq!(plain.vertices, other.vertices);
             assert_eq!(plain.edges, other.edges);
         }
@@ -197,7 +179,7 @@ mod tests {
         for edge in &mut turned.edges {
             edge.points = edge.points.iter().map(turn).collect();
         }
-        let (plain, other) = (Canonical::new(&drawing), Canonical::new(&turned));
+        let (plain, other) = (canonical(&drawing), canonical(&turned));
         for (p, q) in plain.drawing.vertices.iter().zip(&other.drawing.vertices) {
             assert!(turn(p).distance(*q) < 1e-9);
         }
@@ -213,7 +195,7 @@ mod tests {
     fn what_is_found_has_the_numbers_given() {
         let drawing = testing::holed_cube();
         let truth = from_truth(&drawing).unwrap();
-        let canonical = Canonical::new(&drawing);
+        let canonical = canonical(&drawing);
         let mut new = vec![0; drawing.edges.len()];
         for (k, &old) in canonical.edges.iter().enumerate() {
             new[old] = k;

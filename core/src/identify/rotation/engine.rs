@@ -60,8 +60,9 @@ impl Engine for RotationEngine {
     }
 
     fn identify(&self, drawing: &Drawing, progress: Progress<'_>) -> Result<Identification> {
-        check_degrees(&Graph::new(drawing))?;
-        let canonical = Canonical::new(drawing);
+        let graph = Graph::new(drawing);
+        check_degrees(&graph)?;
+        let canonical = Canonical::new(drawing, &graph);
         let found = self.found(&canonical.drawing, progress)?;
         Ok(canonical.as_given(found))
     }

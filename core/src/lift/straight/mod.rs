@@ -9,15 +9,15 @@
 mod circles;
 mod doubts;
 pub(super) mod ends;
+mod parallelograms;
 mod redraw;
-mod rows;
 mod solve;
 #[cfg(test)]
 mod tests;
 
 use super::directions::{Directions, is_exact, recognised};
 use crate::drawing::{Drawing, Projection};
-use rows::{Row, rows};
+use parallelograms::{Sides, sides};
 use solve::Bundle;
 
 /// A drawing as it is drawn or made straight, with one reading of its directions.
@@ -26,21 +26,20 @@ pub(crate) struct Straight {
     pub(crate) drawing: Drawing,
     /// Its directions; the precision is the error of the drawing as it was drawn.
     pub(crate) directions: Directions,
-    rows: Vec<Row>,
+    sides: Vec<Sides>,
 }
 
 impl Straight {
     /// Edges that are parallel, of each set.
     pub(super) fn parallels(&self) -> Vec<Vec<usize>> {
-        let rows = self.rows.iter();
-        rows.map(|row| row.edges.iter().map(|m| m.0).collect())
-            .collect()
+        let all = self.sides.iter();
+        all.map(|s| s.edges.iter().map(|m| m.0).collect()).collect()
     }
 
     /// The drawing, as it was drawn, made straight anew by other directions; `None` if it cannot be
     /// solved.
     pub(super) fn anew(&self, drawn: &Drawing, directions: Directions) -> Option<Self> {
-        straighten(drawn, directions, self.rows.clone())
+        straighten(drawn, directions, self.sides.clone())
     }
 }
 
@@ -52,20 +51,20 @@ pub(crate) fn straightened(drawing: &Drawing) -> Vec<Straight> {
     let readings = Directions::coarse(drawing).into_iter();
     readings
         .flat_map(|reading| {
-            let rows = rows(drawing, reading.precision);
+            let sides = sides(drawing, reading.precision);
             let reading = doubts::without_aside(drawing, reading);
             let long = doubts::long(drawing, &reading);
-            [reading, long].map(|r| (rows::told(&rows, r), rows.clone()))
+            [reading, long].map(|r| (parallelograms::told(&sides, r), sides.clone()))
         })
-        .filter_map(|(reading, rows)| straighten(drawing, reading, rows))
+        .filter_map(|(reading, sides)| straighten(drawing, reading, sides))
         .collect()
 }
 
 /// The drawing made straight by one reading; `None` if it cannot be solved.
-fn straighten(drawing: &Drawing, mut reading: Directions, rows: Vec<Row>) -> Option<Straight> {
+fn straighten(drawing: &Drawing, mut reading: Directions, sides: Vec<Sides>) -> Option<Straight> {
     let drawing = recognised(drawing, reading.precision);
     circles::take_in(&drawing, &mut reading);
-    let mut bundle = Bundle::new(&drawing, &reading, &rows);
+    let mut bundle = Bundle::new(&drawing, &reading, &sides);
     let fitted = bundle.solve()?;
     let mut directions = reading.clone();
     directions.precision = fitted.error;
@@ -76,6 +75,6 @@ fn straighten(drawing: &Drawing, mut reading: Directions, rows: Vec<Row>) -> Opt
     Some(Straight {
         drawing: redraw::applied(&drawing, &bundle, &fitted),
         directions,
-        rows,
+        sides,
     })
 }

@@ -5,7 +5,7 @@ use std::f64::consts::SQRT_2;
 use glam::DVec2;
 
 use super::circles::{Circle, circles, coaxial};
-use super::rows::Row;
+use super::parallelograms::Sides;
 use crate::drawing::Drawing;
 use crate::lift::directions::Directions;
 use crate::lift::system::System;
@@ -76,18 +76,21 @@ pub(super) struct Fitted {
 }
 
 impl<'a> Bundle<'a> {
-    pub(super) fn new(drawing: &'a Drawing, directions: &'a Directions, rows: &[Row]) -> Self {
+    pub(super) fn new(drawing: &'a Drawing, directions: &'a Directions, all: &[Sides]) -> Self {
         let mut conditions = Vec::new();
         for (axis, a) in directions.axes.iter().enumerate() {
             let along = a.edges.iter().map(|&edge| Condition::Along { edge, axis });
             conditions.extend(along);
         }
-        for row in rows {
-            let axis = row.edges.first().and_then(|m| directions.axis_of_edge(m.0));
+        for sides in all {
+            let axis = sides
+                .edges
+                .first()
+                .and_then(|m| directions.axis_of_edge(m.0));
             // Across an axis they are alike already.
             let along = axis.map(|k| directions.axes[k].direction.truncate().normalize());
             let ways = along.map_or(vec![DVec2::X, DVec2::Y], |along| vec![along]);
-            for pair in row.edges.windows(2) {
+            for pair in sides.edges.windows(2) {
                 let (edges, sign) = ([pair[0].0, pair[1].0], pair[0].1 * pair[1].1);
                 conditions.extend(ways.iter().map(|&direction| Condition::Alike {
                     edges,

@@ -1,6 +1,6 @@
 use glam::{DVec2, DVec3};
 
-use super::rows::{Row, rows};
+use super::parallelograms::{Sides, sides};
 use super::{ends, straightened};
 use crate::drawing::{Drawing, SurfaceKind};
 use crate::identify::Face;
@@ -127,9 +127,9 @@ fn with_pocket() -> (Drawing, Vec<Face>, std::ops::Range<usize>) {
 fn opposite_sides_of_parallelograms_become_one_vector() {
     let (exact, _, pocket) = with_pocket();
     let drawing = shaken(&exact, 0.002);
-    let all = rows(&drawing, 0.002 * exact.size());
+    let all = sides(&drawing, 0.002 * exact.size());
     // Six edges along the pocket, and six pairs at its ends.
-    let own = |row: &&Row| pocket.contains(&row.edges[0].0);
+    let own = |s: &&Sides| pocket.contains(&s.edges[0].0);
     let mut sizes: Vec<usize> = all.iter().filter(own).map(|r| r.edges.len()).collect();
     sizes.sort_unstable();
     assert_eq!(sizes, [2, 2, 2, 2, 2, 2, 6]);
@@ -150,7 +150,7 @@ fn opposite_sides_of_parallelograms_become_one_vector() {
 }
 
 #[test]
-fn short_edges_take_their_axis_from_their_row() {
+fn short_edges_take_their_axis_from_those_alike() {
     let (exact, _, pocket) = with_pocket();
     let drawing = shaken(&exact, 0.004);
     let straight = &straightened(&drawing)[0];
@@ -182,9 +182,9 @@ fn ends_of_prisms_are_across_what_leaves_them() {
     let (exact, faces, pocket) = with_pocket();
     let drawing = shaken(&exact, 0.004);
     let straight = &straightened(&drawing)[0];
-    // One edge of the pocket's row and one of its floor are read wrongly.
+    // One edge along the pocket and one of its floor are read wrongly.
     let mut directions = straight.directions.clone();
-    let up = rows(&drawing, straight.directions.precision)
+    let up = sides(&drawing, straight.directions.precision)
         .into_iter()
         .find(|r| r.edges.len() == 6 && pocket.contains(&r.edges[0].0))
         .unwrap()

@@ -119,7 +119,7 @@ fn crossings(shapes: &Shapes, part: usize, at: DVec2) -> Option<Vec<f64>> {
     let outlines = whole.loops.iter().map(|&i| &shapes.loops[i]);
     let mut levels: Vec<f64> = outlines.filter(hit).map(|o| o.depth(at)).collect();
     levels.sort_by(f64::total_cmp);
-    (levels.len().is_multiple_of(2)).then_some(levels)
+    levels.len().is_multiple_of(2).then_some(levels)
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::drawing::{CoEdge, Curve2, Drawing, Truth};
+use crate::drawing::{Curve2, Drawing};
 
 /// How drawings are varied for training. The default changes nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -28,7 +28,10 @@ impl Augment {
         let mut random = Random::new(self.seed, index);
         let mut varied = drawing.clone();
         if self.renumber {
-            renumber(&mut varied, &mut random);
+            let mut permutation = |n| random.permutation(n);
+            let vertices = permutation(varied.vertices.len());
+            let edges = permutation(varied.edges.len());
+            varied = varied.renumbered(&vertices, &edges);
         }
         if self.reverse {
             reverse(&mut varied, &mut random);
@@ -42,6 +45,11 @@ impl Augment {
         let noise = self.noise * random.unit() * varied.size();
         if !mirror && turn == DVec2::X && noise == 0.0 {
             return varied;
+        }
+        if let Some(truth) = &mut varied.truth {
+            // Places in space are not trained on; wrong ones must not be left.
+            truth.vertices3d.clear();
+            truth.edges3d.clear();
         }
         let shape = |p: DVec2| turn.rotate(if mirror { DVec2::new(-p.x, p.y) } else { p });
         let mut error = || DVec2::new(random.normal(), random.normal()) * noise;
@@ -69,27 +77,6 @@ impl Augment {
     }
 }
 
-fn renumber(drawing: &mut Drawing, random: &mut Random) {
-    let vertices = random.permutation(drawing.vertices.len());
-    let edges = random.permutation(drawing.edges.len());
-    drawing.vertices = invert(&vertices)
-        .iter()
-        .map(|&v| drawing.vertices[v])
-        .collect();
-    drawing.edges = invert(&edges)
-        .iter()
-        .map(|&e| drawing.edges[e].clone())
-        .collect();
-    for edge in &mut drawing.edges {
-        edge.v = edge.v.map(|v| vertices[v]);
-    }
-    rename(drawing, |c| CoEdge::new(edges[c.edge()], c.is_reversed()));
-    if let Some(truth) = &mut drawing.truth {
-        // Depths are not trained on here; wrong ones must not be left.
-        forget_depths(truth);
-    }
-}
-
 fn reverse(drawing: &mut Drawing, random: &mut Random) {
     let turned: Vec<bool> = drawing.edges.iter().map(|_| random.below(2) == 1).collect();
     for (edge, _) in drawing.edges.iter_mut().zip(&turned).filter(|(_, t)| **t) {
@@ -99,30 +86,17 @@ fn reverse(drawing: &mut Drawing, random: &mut Random) {
             edge.curve = Curve2::recognise(&edge.points);
         }
     }
-    rename(drawing, |c| if turned[c.edge()] { c.mate() } else { c });
-    if let Some(truth) = &mut drawing.truth {
-        forget_depths(truth);
+    let Some(truth) = &mut drawing.truth else {
+        return;
+    };
+    for c in truth.faces.iter_mut().flat_map(|f| &mut f.loops).flatten() {
+        if turned[c.edge()] {
+            *c = c.mate();
+        }
     }
-}
-
-fn rename(drawing: &mut Drawing, name: impl Fn(CoEdge) -> CoEdge) {
-    let faces = drawing.truth.iter_mut().flat_map(|t| &mut t.faces);
-    for c in faces.flat_map(|f| &mut f.loops).flatten() {
-        *c = name(*c);
+    for (polyline, _) in truth.edges3d.iter_mut().zip(&turned).filter(|(_, t)| **t) {
+        polyline.reverse();
     }
-}
-
-fn forget_depths(truth: &mut Truth) {
-    truth.vertices3d.clear();
-    truth.edges3d.clear();
-}
-
-fn invert(permutation: &[usize]) -> Vec<usize> {
-    let mut inverse = vec![0; permutation.len()];
-    for (from, &to) in permutation.iter().enumerate() {
-        inverse[to] = from;
-    }
-    inverse
 }
 
 /// SplitMix64 (Steele, Lea and Flood 2014): small, and good enough for choices like these.

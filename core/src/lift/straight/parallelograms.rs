@@ -21,17 +21,18 @@ const ALONG: f64 = 3.0;
 
 /// Edges that are drawn as one vector.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Row {
+pub(super) struct Sides {
     /// Its edges, each with the sign by which it runs as the first does.
     pub(super) edges: Vec<(usize, f64)>,
     /// Mean of the edges as vectors.
     mean: DVec2,
-    /// Rows that are the other sides of the same parallelograms.
+    /// Those that are the other sides of the same parallelograms, by index.
     beside: Vec<usize>,
 }
 
-/// Rows of two edges and more, each edge in one.
-pub(super) fn rows(drawing: &Drawing, precision: f64) -> Vec<Row> {
+/// Edges that are drawn as one vector, two and more, each edge once; `precision` is the standard error
+/// of coordinates, drawing units.
+pub(super) fn sides(drawing: &Drawing, precision: f64) -> Vec<Sides> {
     let edges = drawing.edges.len();
     let mut leaving: Vec<Vec<(usize, usize)>> = vec![Vec::new(); drawing.vertices.len()];
     for (e, edge) in drawing.edges.iter().enumerate() {
@@ -63,17 +64,17 @@ pub(super) fn rows(drawing: &Drawing, precision: f64) -> Vec<Row> {
         }
     }
     let chord = |e: usize| at(drawing.edges[e].v[1]) - at(drawing.edges[e].v[0]);
-    let mut rows: Vec<Row> = Vec::new();
-    let mut row_of = vec![None; edges];
+    let mut all: Vec<Sides> = Vec::new();
+    let mut sides_of = vec![None; edges];
     for e in corners.iter().flat_map(|&(e, f)| [e, f]) {
         let set = sets.find(e);
-        if row_of[set].is_none() {
+        if sides_of[set].is_none() {
             let own: Vec<usize> = (0..edges).filter(|&x| sets.find(x) == set).collect();
             let sign = |x: usize| chord(x).dot(chord(own[0])).signum();
             let members: Vec<(usize, f64)> = own.iter().map(|&x| (x, sign(x))).collect();
             let sum: DVec2 = members.iter().map(|&(x, s)| chord(x) * s).sum();
-            own.iter().for_each(|&x| row_of[x] = Some(rows.len()));
-            rows.push(Row {
+            own.iter().for_each(|&x| sides_of[x] = Some(all.len()));
+            all.push(Sides {
                 mean: sum / members.len() as f64,
                 edges: members,
                 beside: Vec::new(),
@@ -81,41 +82,41 @@ pub(super) fn rows(drawing: &Drawing, precision: f64) -> Vec<Row> {
         }
     }
     for (e, f) in corners {
-        if let [Some(i), Some(j)] = [row_of[e], row_of[f]] {
-            rows[i].beside.push(j);
-            rows[j].beside.push(i);
+        if let [Some(i), Some(j)] = [sides_of[e], sides_of[f]] {
+            all[i].beside.push(j);
+            all[j].beside.push(i);
         }
     }
-    rows
+    all
 }
 
-/// The reading, with the edges of each row along the axis that their mean is along; along none if it
-/// is aside of all. Sides of one parallelogram do not follow one axis.
-pub(super) fn told(rows: &[Row], mut reading: Directions) -> Directions {
-    let mut order: Vec<usize> = (0..rows.len()).collect();
-    let weight = |i: usize| rows[i].mean.length() * rows[i].edges.len() as f64;
+/// The reading, with the edges of each vector along the axis that their mean is along; along none if
+/// it is aside of all. Sides of one parallelogram do not follow one axis.
+pub(super) fn told(all: &[Sides], mut reading: Directions) -> Directions {
+    let mut order: Vec<usize> = (0..all.len()).collect();
+    let weight = |i: usize| all[i].mean.length() * all[i].edges.len() as f64;
     order.sort_by(|&i, &j| weight(j).total_cmp(&weight(i)));
-    let mut axis_of: Vec<Option<usize>> = vec![None; rows.len()];
+    let mut axis_of: Vec<Option<usize>> = vec![None; all.len()];
     for i in order {
-        let row = &rows[i];
-        let count = row.edges.len() as f64;
+        let sides = &all[i];
+        let count = sides.edges.len() as f64;
         let error = SQRT_2 * reading.precision / count.sqrt();
-        let error = error.hypot(reading.error * row.mean.length() / 2.0);
+        let error = error.hypot(reading.error * sides.mean.length() / 2.0);
         let off = |k: usize| {
             let drawn = reading.axes[k].direction.truncate();
-            (row.mean.perp_dot(drawn.normalize_or(DVec2::X)) / error).abs()
+            (sides.mean.perp_dot(drawn.normalize_or(DVec2::X)) / error).abs()
         };
-        let free = |k: &usize| row.beside.iter().all(|&j| axis_of[j] != Some(*k));
+        let free = |k: &usize| sides.beside.iter().all(|&j| axis_of[j] != Some(*k));
         let nearest = (0..reading.axes.len())
             .filter(free)
             .min_by(|&j, &k| off(j).total_cmp(&off(k)))
             .filter(|&k| off(k) < ALONG);
         for axis in &mut reading.axes {
-            axis.edges.retain(|e| row.edges.iter().all(|m| m.0 != *e));
+            axis.edges.retain(|e| sides.edges.iter().all(|m| m.0 != *e));
         }
         if let Some(k) = nearest {
             let edges = &mut reading.axes[k].edges;
-            edges.extend(row.edges.iter().map(|m| m.0));
+            edges.extend(sides.edges.iter().map(|m| m.0));
             edges.sort_unstable();
         }
         axis_of[i] = nearest;
