@@ -31,8 +31,8 @@ from faceformer_training.faceformer.decode import greedy  # noqa: E402
 from faceformer_training.faceformer.model import PointerModel  # noqa: E402
 from faceformer_training.faceformer.sequences import (  # noqa: E402
     all_at_once,
+    every_start,
     from_start,
-    one_by_one,
     sets_at_once,
 )
 from faceformer_training.faceformer.train import losses, train  # noqa: E402
@@ -56,8 +56,8 @@ def test_a_face_begins_at_its_start_and_ends_with_its_type():
     assert sorted_.tolist() == [6, 8, 3, 9, 2, 5, 7, 2 - TOKENS]
     inner = from_start(two, 1, 0, "walked") - TOKENS
     assert inner.tolist() == [5, 2, 7, 3, 9, 6, 8, 2 - TOKENS]
-    every = one_by_one([two], "sorted")
-    assert sorted(s[0] - TOKENS for s in every) == [2, 3, 5, 6, 7, 8, 9]
+    every = [two[1][loop][first] for _, loop, first in every_start([two])]
+    assert sorted(every) == [2, 3, 5, 6, 7, 8, 9]
 
 
 def test_all_faces_are_in_the_order_of_their_lowest():

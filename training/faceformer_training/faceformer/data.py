@@ -12,7 +12,7 @@ import torch
 from safetensors import safe_open
 
 from .config import FORMAT, PAD, TOKENS, ModelConfig
-from .sequences import Face, all_at_once, one_by_one, sets_at_once
+from .sequences import Face, all_at_once, every_start, from_start, sets_at_once
 
 
 class Shard:
@@ -82,11 +82,24 @@ class Shard:
             faces.append((int(t["face_kinds"][f]), loops))
         return faces
 
-    def sequences(self, i: int, config: ModelConfig) -> list[np.ndarray]:
-        """What is to be learned from the drawing: one sequence a start, or one in all."""
+    def sequences(
+        self,
+        i: int,
+        config: ModelConfig,
+        starts: int = 0,
+        random: np.random.Generator | None = None,
+    ) -> list[np.ndarray]:
+        """What is to be learned from the drawing: one sequence a start, or one in all.
+
+        With ``starts`` at most that many, chosen at random.
+        """
         faces = self.true_faces(i, config.variant)
         if config.variant == "faceformer":
-            return one_by_one(faces, config.further_loops)
+            places = every_start(faces)
+            if random is not None and 0 < starts < len(places):
+                picks = random.choice(len(places), starts, replace=False)
+                places = [places[k] for k in picks]
+            return [from_start(faces[f], *place, config.further_loops) for f, *place in places]
         if config.variant == "seq2seq-coedge":
             return [all_at_once(faces, config.further_loops)]
         return [sets_at_once(faces)]
@@ -121,13 +134,7 @@ def collate(
 ) -> Batch:
     """Puts drawings into one batch; with ``starts`` at most that many sequences of each."""
     points = [shard.points(i, config.variant) for shard, i in places]
-    chosen: list[list[np.ndarray]] = []
-    for shard, i in places:
-        sequences = shard.sequences(i, config)
-        if 0 < starts < len(sequences):
-            picks = random.choice(len(sequences), starts, replace=False)
-            sequences = [sequences[k] for k in picks]
-        chosen.append(sequences)
+    chosen = [shard.sequences(i, config, starts, random) for shard, i in places]
     tokens = max(len(p) for p in points)
     padded = np.zeros((len(places), tokens, 2 * points[0].shape[1]), np.float32)
     absent = np.ones((len(places), tokens), bool)

@@ -35,13 +35,13 @@ def further(loop: np.ndarray, further_loops: str) -> np.ndarray:
     return np.roll(loop, -int(loop.argmin()))
 
 
-def one_by_one(faces: Sequence[Face], further_loops: str) -> list[np.ndarray]:
-    """The face from each of all co-edges as a start: Faceformer."""
+def every_start(faces: Sequence[Face]) -> list[tuple[int, int, int]]:
+    """Face, loop and place in the loop of every co-edge: where Faceformer's sequences begin."""
     return [
-        from_start(face, loop, first, further_loops)
-        for face in faces
-        for loop in range(len(face[1]))
-        for first in range(len(face[1][loop]))
+        (f, k, first)
+        for f, (_, loops) in enumerate(faces)
+        for k, loop in enumerate(loops)
+        for first in range(len(loop))
     ]
 
 

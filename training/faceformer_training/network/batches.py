@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from torch.utils.data import DataLoader, IterableDataset, get_worker_info
 
 from .config import RunConfig
 
@@ -82,8 +83,8 @@ class Source:
         groups = batches(places[::step], self.config.batch_edges, 0)
         return [self.collate(group, 0, k) for k, group in enumerate(groups)]
 
-    def batches(self, skip: int) -> Iterator[tuple[int, Any, int]]:
-        """Epoch, batch and its number of drawings, beginning after ``skip`` batches."""
+    def batches(self, skip: int, every: int = 1) -> Iterator[tuple[int, Any, int]]:
+        """Epoch, batch and its number of drawings: each ``every``-th, after ``skip`` batches."""
         if not self.config.train:
             raise ValueError("no shards to train on: name them in the configuration or by --train")
         epoch = seen = 0
@@ -96,9 +97,31 @@ class Source:
                 if k % self.world != self.rank:
                     continue
                 seen += 1
-                if seen > skip:
+                if seen > skip and (seen - skip - 1) % every == 0:
                     yield epoch, self.collate(group, seed, k), len(group)
             epoch += 1
+
+
+class Dealt(IterableDataset):
+    """A source's batches, of which each worker of a ``DataLoader`` makes its share.
+
+    The loader takes from its workers in turn, so that batches come in the order of the source.
+    """
+
+    def __init__(self, source: Source, skip: int):
+        self.source, self.skip = source, skip
+
+    def __iter__(self) -> Iterator[tuple[int, Any, int]]:
+        worker = get_worker_info()
+        return self.source.batches(self.skip + worker.id, worker.num_workers)
+
+
+def ahead(source: Source, skip: int) -> Iterator[tuple[int, Any, int]]:
+    """A source's batches, made ahead of their use: in a thread, or in ``workers`` processes."""
+    workers = source.config.workers
+    if workers == 0:
+        return prefetched(source.batches(skip))
+    return iter(DataLoader(Dealt(source, skip), batch_size=None, num_workers=workers))
 
 
 def prefetched(items: Iterator, ahead: int = 4) -> Iterator:

@@ -47,6 +47,8 @@ class RunConfig:
     nodes: int = 1
     precision: str = "32-true"
     threads: int = 1
+    # Processes that make batches; 0, a thread does. A fast GPU needs several.
+    workers: int = 0
 
     @classmethod
     def read(cls, path: Path) -> Self:

@@ -16,7 +16,7 @@ from lightning_fabric import Fabric
 from safetensors.torch import load_file
 from tqdm import tqdm
 
-from .batches import Source, prefetched
+from .batches import Source, ahead
 from .config import RunConfig
 
 
@@ -85,7 +85,7 @@ def run(task: Task, resume: bool, stop: int | None = None) -> Path:
     bar = tqdm(total=config.steps, initial=state["step"], disable=not fabric.is_global_zero)
     started = time.monotonic()
     last_step = config.steps if stop is None else min(stop, config.steps)
-    for epoch, batch, count in prefetched(source.batches(skip=state["step"])):
+    for epoch, batch, count in ahead(source, skip=state["step"]):
         step = state["step"]
         if step >= last_step:
             break
@@ -106,7 +106,8 @@ def run(task: Task, resume: bool, stop: int | None = None) -> Path:
         state["step"] += 1
         state["drawings"] += count * fabric.world_size
         bar.update()
-        bar.set_postfix(loss=f"{parts['loss'].item():.4f}", epoch=epoch, refresh=False)
+        if state["step"] % 20 == 0:  # A GPU is waited for where a number is read.
+            bar.set_postfix(loss=f"{parts['loss'].item():.4f}", epoch=epoch, refresh=False)
         done = state["step"] == last_step
         if state["step"] % config.validate_every == 0 or done:
             if curve is not None:
