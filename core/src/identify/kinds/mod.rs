@@ -2,8 +2,10 @@
 
 mod look;
 mod planar;
+mod rulings;
 
 pub(crate) use planar::kinds_of;
+pub(crate) use rulings::ruled_out;
 
 use crate::drawing::{CoEdge, Drawing, SurfaceKind};
 use look::Look;

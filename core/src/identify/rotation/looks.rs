@@ -7,7 +7,7 @@
 use super::group::Grouping;
 use super::{LoopKinds, Triples};
 use crate::drawing::{CoEdge, Curve2, Drawing, Graph, SurfaceKind};
-use crate::identify::kinds::kinds_of;
+use crate::identify::kinds::{kinds_of, ruled_out};
 
 /// Least probability at which a whole circle may bound a plane: an outline of a ball does not.
 const FLAT: f64 = 0.1;
@@ -31,13 +31,14 @@ pub(super) struct Looks {
 }
 
 impl Looks {
-    /// The looks of loops; `told` is the model's opinion.
+    /// The looks of loops; `told` is the model's opinion, `exact` whether what is drawn parallel is.
     pub(super) fn new(
         drawing: &Drawing,
         graph: &Graph,
         triples: &Triples,
         walks: &[Vec<CoEdge>],
         told: Option<&dyn LoopKinds>,
+        exact: bool,
     ) -> Self {
         let Some(told) = told else {
             let walks: Vec<&[CoEdge]> = walks.iter().map(Vec::as_slice).collect();
@@ -47,7 +48,17 @@ impl Looks {
                 twin: vec![None; walks.len()],
             };
         };
-        let shares = told.kinds(graph, triples, walks);
+        let mut shares = told.kinds(graph, triples, walks);
+        if exact {
+            for (own, walk) in shares.iter_mut().zip(walks) {
+                let impossible = ruled_out(drawing, walk);
+                for (share, kind) in own.iter_mut().zip(SurfaceKind::ALL) {
+                    if Some(kind) == impossible {
+                        *share = 0.0;
+                    }
+                }
+            }
+        }
         let flat = |s: &Shares| {
             let place = SurfaceKind::ALL
                 .iter()

@@ -77,6 +77,7 @@ impl Reader<'_> {
             self.field.triples(),
             &walks,
             self.kinds,
+            self.readings.straight().is_none(),
         );
         let faces: Vec<Face> = walks
             .into_iter()
