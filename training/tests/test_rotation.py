@@ -1,5 +1,6 @@
 """Dataset, network, training and export of the rotation engine's model."""
 
+import dataclasses
 import json
 import os
 import subprocess
@@ -109,6 +110,12 @@ def config(shard_path, tmp_path) -> TrainConfig:
         validate_every=3,
         accelerator="cpu",
     )
+
+
+def test_the_configuration_for_a_gpu_begins_with_the_shipped_weights():
+    config = TrainConfig.read(ROOT / "training/configs/rotation/rotation-gpu.json")
+    shipped = json.loads((ROOT / config.initial).with_suffix(".json").read_text())
+    assert dataclasses.asdict(config.network()) == shipped["model"]
 
 
 def test_training_is_reproducible_and_resumes(config, tmp_path):
