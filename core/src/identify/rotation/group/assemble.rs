@@ -4,11 +4,15 @@ use std::collections::BTreeSet;
 
 use super::Grouping;
 use super::joins::{Join, Joiner, Role, State};
-use super::trials::Run;
+use super::trials::Step;
 
 impl Joiner<'_> {
-    /// The faces of a state that a run led to.
-    pub(super) fn grouping(&self, run: &Run, state: &State) -> Grouping {
+    /// The faces of a state that steps led to, not scored.
+    pub(super) fn grouping<'s>(
+        &self,
+        steps: impl Iterator<Item = &'s Step>,
+        state: &State,
+    ) -> Grouping {
         let shapes = self.shapes;
         let count = shapes.loops.len();
         let mut owner: Vec<usize> = (0..count).collect();
@@ -22,7 +26,7 @@ impl Joiner<'_> {
             }
         }
         let mut sure = vec![1.0; count];
-        for step in &run.steps {
+        for step in steps {
             let shares = step.shares();
             let at = |j: &Join, i: usize| -> Vec<usize> {
                 let touches = |l: &&usize| {
@@ -66,7 +70,7 @@ impl Joiner<'_> {
                 .collect(),
             faces,
             reversed: shapes.loops.iter().map(|l| turned[l.part]).collect(),
-            score: run.log_likelihood,
+            score: 0.0,
         }
     }
 }

@@ -238,6 +238,7 @@ impl Joiner<'_> {
                 share(links().all(|l| l.kind == LinkKind::Coplanar)),
             );
         }
+        set(Feature::Fits, share(links().any(|l| l.fits)));
         set(Feature::Clearance, mean(&|l| self.clearance(l)));
         set(Feature::Round, mean(&|l| self.roundness(l)));
         set(Feature::Thin, mean(&|l| self.thinness(l)));

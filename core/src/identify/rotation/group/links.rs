@@ -36,6 +36,8 @@ pub(super) struct Link {
     pub(super) same_sense: bool,
     /// Whether two circles would be in one plane although they are drawn around one axis.
     pub(super) doubtful: bool,
+    /// Whether all of the inner loop lies on the outer one's curved surface.
+    pub(super) fits: bool,
 }
 
 /// All pairs of loops that may be one face, also of one part.
@@ -84,6 +86,7 @@ fn flat_or_coaxial(shapes: &Shapes) -> Vec<Link> {
                 offset,
                 same_sense: a.area * b.area > 0.0,
                 doubtful,
+                fits: false,
             };
             links.extend(coplanar.map(|offset| link(LinkKind::Coplanar, offset)));
             if coplanar.is_none() || doubtful {
@@ -95,22 +98,21 @@ fn flat_or_coaxial(shapes: &Shapes) -> Vec<Link> {
 }
 
 /// Adds holes in curved surfaces. What is drawn over a curved face need not be in it, so of a part
-/// that other links may join only loops are taken that are no whole faces: a whole cylinder or cone
-/// has rulings. Other parts have to be joined somehow.
+/// that other links may join only loops are taken that are no whole faces, or that fit on the surface.
+/// Other parts have to be joined somehow.
 fn pierced(shapes: &Shapes, linked: &[bool], links: &mut Vec<Link>) {
     for (p, part) in shapes.parts.iter().enumerate() {
         let mut all: Vec<(usize, Link)> = Vec::new();
         for &j in &part.loops {
             let b = &shapes.loops[j];
-            let trimmed = matches!(b.kind, SurfaceKind::Cylinder | SurfaceKind::Cone)
-                && b.ruling.is_none()
-                && b.line.is_none();
-            if linked[p] && !trimmed {
+            let trimmed = is_trimmed(b);
+            if linked[p] && !b.curved {
                 continue;
             }
             for (i, a) in shapes.loops.iter().enumerate() {
                 let around = a.low.cmple(b.low).all() && a.high.cmpge(b.high).all();
-                let rank = match (a.kind == b.kind && a.curved, b.ruling.is_some()) {
+                let same = a.kind == b.kind && a.curved;
+                let rank = match (same, b.ruling.is_some()) {
                     (true, false) => 0,
                     (false, false) if a.ring && b.curved || a.curved && b.ring => 1,
                     (true, true) => 2,
@@ -118,7 +120,7 @@ fn pierced(shapes: &Shapes, linked: &[bool], links: &mut Vec<Link>) {
                 };
                 if a.part == p
                     || !around
-                    || linked[p] && rank > 0
+                    || linked[p] && !same
                     || b.area.abs() >= a.area.abs()
                     || inside(a, b) < INSIDE
                 {
@@ -127,6 +129,11 @@ fn pierced(shapes: &Shapes, linked: &[bool], links: &mut Vec<Link>) {
                 let Some(offset) = depth_on(a, b) else {
                     continue;
                 };
+                let fits = same && fits(shapes, a, b);
+                if linked[p] && !(trimmed || fits) {
+                    continue;
+                }
+                let rank = if fits { 0 } else { rank };
                 let link = Link {
                     kind: LinkKind::Pierced,
                     outer: i,
@@ -135,6 +142,7 @@ fn pierced(shapes: &Shapes, linked: &[bool], links: &mut Vec<Link>) {
                     error: b.depth_error(shapes.error),
                     same_sense: a.area * b.area > 0.0,
                     doubtful: false,
+                    fits,
                 };
                 all.push((rank, link));
             }
@@ -143,6 +151,31 @@ fn pierced(shapes: &Shapes, linked: &[bool], links: &mut Vec<Link>) {
         let first = all.iter().map(|a| a.0).min();
         links.extend(all.into_iter().filter(|a| Some(a.0) == first).map(|a| a.1));
     }
+}
+
+/// Whether a curved loop is no whole face: a whole cylinder or cone has rulings, and other surfaces
+/// have a line through their circles' middles.
+fn is_trimmed(b: &Outline) -> bool {
+    let corners = match b.kind {
+        SurfaceKind::Cylinder | SurfaceKind::Cone => 0,
+        // Fillets have up to four.
+        _ => 5,
+    };
+    b.curved && b.corners.len() >= corners && b.ruling.is_none() && b.line.is_none()
+}
+
+/// Whether loop `b` lies on the ruled surface of loop `a`, all of it at the same depth from it.
+fn fits(shapes: &Shapes, a: &Outline, b: &Outline) -> bool {
+    if a.ruling.is_none() || b.corners.len() < 3 {
+        return false;
+    }
+    let (low, high) = b
+        .boundary()
+        .map(|(p, depth)| a.depth(p) - depth)
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| {
+            (l.min(x), h.max(x))
+        });
+    high - low < shapes.slack(b.depth_error(shapes.error))
 }
 
 /// Depth by which loop `b` has to move so that its corners are on loop `a`'s surface.
@@ -175,4 +208,26 @@ fn inside(a: &Outline, b: &Outline) -> f64 {
     let count = points.len();
     let hits = points.filter(|p| a.contains(**p)).count();
     hits as f64 / count.max(1) as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::round::{Round, drawn, lifted};
+    use super::*;
+
+    #[test]
+    fn what_lies_on_a_cylinder_fits() {
+        let pipe = Round::cylinder([0.0, 0.0], 1.0, 0.0, 3.0);
+        let patch = Round::patch([0.0, 0.0], 1.0, [1.0, 2.0], 0.4);
+        let other = Round::patch([0.0, 0.3], 0.7, [1.0, 2.0], 0.4);
+        for (inner, on) in [(patch, true), (other, false)] {
+            let (drawing, loops) = drawn(&[pipe, inner]);
+            lifted(&drawing, &loops, |shapes, links| {
+                let part = |i: usize| shapes.loops[i].part;
+                let own = links.iter().filter(|l| part(l.outer) != part(l.inner));
+                let fits = own.filter(|l| l.kind == LinkKind::Pierced && l.fits);
+                assert_eq!(fits.count() > 0, on, "{links:?}");
+            });
+        }
+    }
 }

@@ -22,6 +22,8 @@ mod joins;
 mod layout;
 mod links;
 mod oblique;
+#[cfg(test)]
+mod round;
 mod score;
 mod search;
 mod shapes;

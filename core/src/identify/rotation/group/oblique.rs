@@ -22,6 +22,9 @@ const ROUND: f64 = 0.999;
 /// Sine of the angle between normals up to which they are one.
 const SAME: f64 = 0.02;
 
+/// The same for one of the drawing's own axes, whose arcs have been looked for already.
+const OWN: f64 = 5e-3;
+
 /// Gives whole circles that no axis fits an axis of their own.
 pub(super) fn add(shapes: &mut Shapes, drawing: &Drawing, pieces: &Pieces, faces: &[Face]) {
     if !shapes.camera.is_parallel() {
@@ -37,7 +40,6 @@ pub(super) fn add(shapes: &mut Shapes, drawing: &Drawing, pieces: &Pieces, faces
             continue;
         };
         let slopes = normals(&ellipse);
-        let same = |a: DVec3, b: DVec3| a.cross(b).length() < SAME;
         let around = |o: &Outline| o.contains(ellipse.center) && o.area.abs() > outline.area.abs();
         let planes = shapes.loops.iter().filter(|o| around(o));
         let planes = planes.filter_map(|o| o.plane);
@@ -45,21 +47,8 @@ pub(super) fn add(shapes: &mut Shapes, drawing: &Drawing, pieces: &Pieces, faces
             .plane
             .into_iter()
             .chain(planes)
-            .find_map(|p| slopes.into_iter().find(|n| same(*n, p.normal())));
-        let given = || {
-            let own = shapes.axes[known..].iter().position(|a| {
-                let near = |n: &DVec3| same(*n, *a);
-                slopes.iter().any(near)
-            });
-            own.map(|k| known + k)
-        };
-        let axis = match told {
-            Some(n) => shapes.axes[known..]
-                .iter()
-                .position(|a| same(n, *a))
-                .map(|k| known + k),
-            None => given(),
-        };
+            .find_map(|p| slopes.into_iter().find(|n| is_near(*n, p.normal(), SAME)));
+        let axis = axis_of(&shapes.axes, known, slopes, told);
         let axis = axis.unwrap_or_else(|| {
             shapes.axes.push(told.unwrap_or(slopes[0]));
             shapes.axes.len() - 1
@@ -89,6 +78,28 @@ pub(super) fn add(shapes: &mut Shapes, drawing: &Drawing, pieces: &Pieces, faces
             depth: plane.level(ellipse.center),
         });
     }
+}
+
+/// The axis that a circle is around, of which the first `known` are the drawing's own: that of the
+/// plane that tells its slope, else one that either of its slopes is.
+fn axis_of(axes: &[DVec3], known: usize, slopes: [DVec3; 2], told: Option<DVec3>) -> Option<usize> {
+    let own = |n: DVec3| axes[..known].iter().position(|a| is_near(n, *a, OWN));
+    let further = |n: DVec3| {
+        let further = axes[known..].iter().position(|a| is_near(n, *a, SAME));
+        further.map(|k| known + k)
+    };
+    match told {
+        Some(n) => own(n).or_else(|| further(n)),
+        None => {
+            let either = |find: &dyn Fn(DVec3) -> Option<usize>| slopes.into_iter().find_map(find);
+            either(&own).or_else(|| either(&further))
+        }
+    }
+}
+
+/// Whether two normals are one, to the sine of an angle.
+fn is_near(a: DVec3, b: DVec3, limit: f64) -> bool {
+    a.cross(b).length() < limit
 }
 
 /// The ellipse that all edges of a loop are on and that they go around once.
@@ -128,6 +139,17 @@ fn normals(ellipse: &EllipseArc) -> [DVec3; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_circle_is_around_an_axis_that_is_there() {
+        let slopes = [DVec3::new(0.6, 0.0, 0.8), DVec3::new(-0.6, 0.0, 0.8)];
+        let bent = |n: DVec3| (n + DVec3::new(0.0, 0.01, 0.0)).normalize();
+        let axes = [slopes[0], DVec3::Y, bent(slopes[1])];
+        assert_eq!(axis_of(&axes, 2, slopes, None), Some(0));
+        assert_eq!(axis_of(&axes, 2, slopes, Some(slopes[1])), Some(2));
+        // The drawing's own arcs are looked for more exactly.
+        assert_eq!(axis_of(&[bent(slopes[0])], 1, slopes, None), None);
+    }
 
     #[test]
     fn a_circle_is_across_one_of_two_normals() {

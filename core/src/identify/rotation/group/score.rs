@@ -46,6 +46,7 @@ features! {
     Host -2.86: "The part placed hangs on this one.",
     Astray -2.00: "Some of a pocket is outside the solid, or of a boss inside.",
     Round 0.22: "Log-odds against chance that places in the face are round fractions of its extents.",
+    Fits 3.00: "All of a loop lies on the curved surface that it would be a hole in.",
     Thin -2.00: "How thin the wall beside the inner loop is: 1 if there is none.",
 }
 
@@ -61,9 +62,10 @@ pub(super) trait JoinScorer {
 ///
 /// They come from a conditional logit over the joins of each part, fitted to drawings of real parts
 /// (block machining features, a parts library, electronic and standard parts); those of links along
-/// an axis are set by hand. The sample corpus overlaps those drawings. The weights of what is astray,
-/// round and thin are fitted to drawings of three views of the families in training; those of what is
-/// astray and thin are made smaller by a third and a half, as parts from elsewhere want it.
+/// an axis and of what fits are set by hand. The sample corpus overlaps those drawings. The weights of
+/// what is astray, round and thin are fitted to drawings of three views of the families in training;
+/// those of what is astray and thin are made smaller by a third and a half, as parts from elsewhere want
+/// it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct HandJoinScorer;
 

@@ -148,8 +148,13 @@ impl<'a> Search<'a> {
         seen: &mut BTreeSet<Vec<Vec<usize>>>,
         found: &mut Vec<Grouping>,
     ) {
-        let mut grouping = self.joiner.grouping(run, state);
-        grouping.score -= behind + LOOSE * self.loose(state) as f64;
+        // What joins nothing but what the chains placed.
+        let rest = self.place(state.clone(), Vec::new(), Vec::new(), None);
+        let state = &rest.states[rest.states.len() - 1];
+        let steps = run.steps.iter().chain(&rest.steps);
+        let mut grouping = self.joiner.grouping(steps, state);
+        grouping.score =
+            run.log_likelihood + rest.log_likelihood - behind - LOOSE * self.loose(state) as f64;
         let mut key: Vec<Vec<usize>> = grouping
             .faces
             .iter()
@@ -293,5 +298,40 @@ impl<'a> Search<'a> {
         for &l in &join.links {
             state.apply(&self.joiner.links[l]);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::round::{Round, drawn, lifted};
+    use super::super::score::HandJoinScorer;
+    use super::*;
+
+    #[test]
+    fn parts_that_a_state_leaves_open_are_placed() {
+        let cylinder = |x: f64, radius: f64| Round::cylinder([x, 0.5], radius, 0.0, 0.5);
+        let (drawing, loops) = drawn(&[cylinder(0.0, 2.0), cylinder(1.0, 0.3)]);
+        lifted(&drawing, &loops, |shapes, links| {
+            let search = Search::new(shapes, links, &HandJoinScorer);
+            let none = Run {
+                steps: Vec::new(),
+                states: vec![search.start()],
+                log_likelihood: 0.0,
+                from: 0,
+            };
+            let mut found = Vec::new();
+            search.keep_one(
+                &none,
+                &none.states[0],
+                0.0,
+                &mut BTreeSet::new(),
+                &mut found,
+            );
+            let mut joined = found[0].faces.clone();
+            joined.retain(|f| f.len() > 1);
+            // Bottoms and tops.
+            assert_eq!(joined, [[0, 4], [1, 5]]);
+            assert!(found[0].score > -LOOSE);
+        });
     }
 }

@@ -197,6 +197,14 @@ impl Outline {
         }
     }
 
+    /// Points of its boundary, with depth in its part.
+    pub(super) fn boundary(&self) -> impl Iterator<Item = (DVec2, f64)> + '_ {
+        self.polygon
+            .iter()
+            .copied()
+            .zip(self.depths.iter().copied())
+    }
+
     /// Whether a drawn point is inside.
     pub(super) fn contains(&self, p: DVec2) -> bool {
         p.cmpge(self.low).all() && p.cmple(self.high).all() && polygon::contains(&self.polygon, p)

@@ -75,9 +75,14 @@ impl Chain {
         let mut used = vec![Use::Free; self.rings.len()];
         let mut now = 0.0;
         let mut together = vec![false; self.rings.len()];
+        let beside = self.beside(shapes, state);
         for (outer, inner) in state.inner.iter().enumerate() {
             for &i in inner {
                 match (own(outer), own(i)) {
+                    (Some(a), Some(b)) if beside.contains(&[a, b]) => {
+                        used[a] = used[a].max(Use::Plane);
+                        used[b] = Use::Taken;
+                    }
                     (Some(a), Some(b)) => {
                         let pair = |p: &&Pair| (p.outer, p.inner) == (a, b);
                         now += self.pairs.iter().find(pair).map_or(STRANGE, |p| p.cost);
@@ -247,8 +252,10 @@ impl Chain {
         for ring in &self.rings {
             let outer = ring.outline;
             let list = std::mem::take(&mut state.inner[outer]);
-            let (inside, kept): (Vec<usize>, Vec<usize>) =
-                list.into_iter().partition(|&i| own(i).is_some());
+            // But not what is beside the axis.
+            let (inside, kept): (Vec<usize>, Vec<usize>) = list
+                .into_iter()
+                .partition(|&i| own(i).is_some_and(|r| used[r] != Use::Taken));
             for i in inside {
                 state.hung[i] = false;
                 if state.inner[i].is_empty() {

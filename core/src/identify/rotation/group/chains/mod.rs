@@ -6,6 +6,7 @@
 //! sides are both left alone would be a disc without thickness. So the loops around an axis are
 //! matched in pairs, or left alone, at the least total cost.
 
+mod beside;
 mod matching;
 #[cfg(test)]
 mod tests;
