@@ -22,6 +22,7 @@ mod model;
 mod options;
 mod orient;
 mod sample;
+mod side;
 mod silhouette;
 mod snap;
 mod stage;

@@ -16,7 +16,7 @@ use super::uses::{Use, uses};
 use super::vertices::Incidence;
 use super::view::View;
 use super::{Orientation, Plan, PlanEdge, PlanError, PlanFace, PlanOptions};
-use super::{finish, graze, sample, silhouette, touch, upright};
+use super::{finish, graze, sample, side, silhouette, touch, upright};
 
 /// Surfaces are snapped within this share of the drawing's size, and within ten times the lift's
 /// residual, but never more than [`SNAP_MOST`].
@@ -148,6 +148,7 @@ pub fn plan(drawing: &Drawing, faces: &[Face], lift: &Lift, options: &PlanOption
         limit: LIMIT * size,
     };
     let vertices = incidence.meet(&snapped.supports, &outlines, &lifted, lengths)?;
+    let sides = side::sides(drawing, faces, &supports, &vertices, &view);
     let mut edges = Vec::with_capacity(drawing.edges.len());
     for (e, (edge, [a, b])) in drawing.edges.iter().zip(&uses).enumerate() {
         let place = Place {
@@ -156,6 +157,7 @@ pub fn plan(drawing: &Drawing, faces: &[Face], lift: &Lift, options: &PlanOption
             ends: edge.v.map(|v| vertices[v]),
             faces: [a.face, b.face],
             supports: [supports[a.face], supports[b.face]],
+            sides: [sides[a.face], sides[b.face]],
             same: snapped.of_face[a.face] == snapped.of_face[b.face],
             silhouette: silhouettes[e],
         };

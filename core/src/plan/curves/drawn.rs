@@ -31,9 +31,10 @@ impl<'a> Drawn<'a> {
         }
         let points = &self.edge.points;
         let parts = steps.div_ceil(points.len().saturating_sub(1).max(1)).max(1);
+        let tangents = tangents(points);
         let mut out = Vec::with_capacity(parts * points.len());
-        for pair in points.windows(2) {
-            let step = |i: usize| pair[0].lerp(pair[1], i as f64 / parts as f64);
+        for (pair, slopes) in points.windows(2).zip(tangents.windows(2)) {
+            let step = |i: usize| between(pair, slopes, i as f64 / parts as f64);
             out.extend((0..parts).map(step));
         }
         out.extend(points.last());
@@ -83,6 +84,47 @@ impl<'a> Drawn<'a> {
     }
 }
 
+/// Tangents of the smooth curve through points, by its length along the chords: of the parabola
+/// through each point and its neighbours. A polyline of two points is straight.
+fn tangents(points: &[DVec2]) -> Vec<DVec2> {
+    let last = points.len() - 1;
+    let slope = |i: usize| (points[i + 1] - points[i]) / points[i].distance(points[i + 1]);
+    (0..=last)
+        .map(|i| {
+            if last < 2 {
+                return slope(0);
+            }
+            let middle = i.clamp(1, last - 1);
+            let (s, t) = (slope(middle - 1), slope(middle));
+            let before = points[middle - 1].distance(points[middle]);
+            let after = points[middle].distance(points[middle + 1]);
+            let bend = (t - s) / (before + after);
+            if i < middle {
+                s - bend * before
+            } else if i > middle {
+                t + bend * after
+            } else {
+                s + bend * before
+            }
+        })
+        .collect()
+}
+
+/// A point of the cubic between two points with their tangents (Hermite), at a share of it.
+fn between(ends: &[DVec2], tangents: &[DVec2], t: f64) -> DVec2 {
+    let length = ends[0].distance(ends[1]);
+    let s = 1.0 - t;
+    let curve = ends[0] * (s * s * (1.0 + 2.0 * t))
+        + ends[1] * (t * t * (1.0 + 2.0 * s))
+        + (tangents[0] * s - tangents[1] * t) * (length * s * t);
+    // Points that fall together have no tangents.
+    if curve.is_finite() {
+        curve
+    } else {
+        ends[0].lerp(ends[1], t)
+    }
+}
+
 fn segment_distance(p: DVec2, a: DVec2, b: DVec2) -> f64 {
     let d = b - a;
     let t = ((p - a).dot(d) / d.length_squared()).clamp(0.0, 1.0);
@@ -102,4 +144,28 @@ pub(super) fn onto(view: &View, surface: &Support, p: DVec2, near: Option<DVec3>
         let far = |q: &DVec3| near.map_or(0.0, |n| q.distance_squared(n));
         far(a).total_cmp(&far(b))
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn smooth_curve_through_points_is_near_what_they_were_taken_from() {
+        let at = |t: f64| DVec2::from_angle(t);
+        let points: Vec<DVec2> = [0.0, 0.2, 0.3, 0.5, 0.6].map(at).to_vec();
+        let slopes = tangents(&points);
+        for (pair, slopes) in points.windows(2).zip(slopes.windows(2)) {
+            let middle = between(pair, slopes, 0.5);
+            assert!((middle.length() - 1.0).abs() < 2e-4, "{middle}");
+            assert!(middle.distance(pair[0].midpoint(pair[1])) > 1e-3);
+        }
+        let line = [DVec2::ZERO, DVec2::X];
+        assert_eq!(between(&line, &tangents(&line), 0.25), DVec2::X * 0.25);
+        let twice = [DVec2::ZERO, DVec2::ZERO, DVec2::X];
+        assert_eq!(
+            between(&twice[..2], &tangents(&twice)[..2], 0.5),
+            DVec2::ZERO
+        );
+    }
 }

@@ -16,6 +16,7 @@ use super::view::View;
 use super::{Curve3, PlanError};
 
 use drawn::Drawn;
+use trace::Lain;
 
 /// Surfaces that meet at a smaller angle (its sine) do not tell the tangent of their curve.
 const SLANT: f64 = 0.02;
@@ -31,10 +32,21 @@ pub(super) struct Place<'a> {
     pub(super) faces: [usize; 2],
     /// Their surfaces.
     pub(super) supports: [Support; 2],
+    /// From which side they are seen, if known.
+    pub(super) sides: [Option<f64>; 2],
     /// Whether both faces have the same surface.
     pub(super) same: bool,
     /// Whether it is an outline of that surface.
     pub(super) silhouette: bool,
+}
+
+impl Place<'_> {
+    fn lain(&self, i: usize, side: Option<f64>) -> Lain {
+        Lain {
+            support: self.supports[i],
+            side,
+        }
+    }
 }
 
 /// The curve of an edge.
@@ -49,7 +61,7 @@ pub(super) struct Place<'a> {
 pub(super) fn curve(place: &Place<'_>, view: &View, lengths: Lengths) -> Result<Curve3, PlanError> {
     let drawn = Drawn::new(place.drawn, view);
     if place.silhouette && !place.drawn.is_straight() {
-        let points = trace::trace(&drawn, view, &place.supports[..1], place.ends);
+        let points = trace::trace(&drawn, view, &[place.lain(0, None)], place.ends);
         return Ok(Curve3::Points {
             points,
             tangents: None,
@@ -82,8 +94,8 @@ pub(super) fn curve(place: &Place<'_>, view: &View, lengths: Lengths) -> Result<
                 // A plane along the axis meets the cylinder in straight lines only.
                 return straight(place, lengths);
             }
-            let mut surfaces = vec![a, b];
-            surfaces.retain(|s| *s != Support::Unknown);
+            let mut surfaces: Vec<Lain> = (0..2).map(|i| place.lain(i, place.sides[i])).collect();
+            surfaces.retain(|s| s.support != Support::Unknown);
             if place.same {
                 surfaces.truncate(1);
             }
@@ -148,7 +160,7 @@ fn on_plane(
             return fitted(place, drawn, conic.rounded(lengths.snap), lengths);
         }
     }
-    let points = trace::trace(drawn, view, &[plane], place.ends);
+    let points = trace::trace(drawn, view, &[place.lain(0, None)], place.ends);
     Ok(Curve3::Points {
         points,
         tangents: None,
