@@ -6,7 +6,7 @@
 //! long edges that agree well and nothing for short ones. The level of noise is the one under which
 //! the best frame explains most.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::{PI, SQRT_2, TAU};
 
 use glam::{DMat3, DQuat, DVec3};
 
@@ -20,6 +20,15 @@ use crate::lift::Camera;
 /// Standard errors of coordinates that are tried, in units of the drawing's size.
 const PRECISIONS: [f64; 6] = [5e-4, 1e-3, 2e-3, 4e-3, 8e-3, 1.6e-2];
 
+/// The same of drawings that are nearly exact, as by rounded coordinates; the first are exact.
+const FINE: [f64; 6] = [1e-6, 3e-6, 1e-5, 3e-5, 1e-4, 2.5e-4];
+
+/// Half of all edges are turned against their parallels by less, in standard errors of their ends.
+const TYPICAL: f64 = 0.5;
+
+/// Points of an arc are off its ellipse by at most so many standard errors.
+const OFF_ARC: f64 = 5.0;
+
 /// Hypotheses that are refined.
 const REFINED: usize = 16;
 
@@ -28,9 +37,6 @@ const STEPS: usize = 8;
 
 /// Readings that are given.
 const READINGS: usize = 4;
-
-/// Share of its size within which the coordinates of an exact drawing are right.
-const EXACT: f64 = 5e-6;
 
 /// Errors within which a curve may be an ellipse.
 const CURVE_ERRORS: f64 = 3.0;
@@ -71,7 +77,8 @@ struct Scored {
 pub(super) fn candidates(drawing: &Drawing) -> Vec<Directions> {
     let size = drawing.size();
     let mut best: Option<(Evidence, Vec<Scored>)> = None;
-    for relative in PRECISIONS {
+    let fine = FINE.into_iter().find(|p| agrees(drawing, p * size));
+    for relative in fine.into_iter().chain(PRECISIONS) {
         let evidence = evidence(drawing, relative * size);
         let all = scored(&evidence);
         let top = |all: &[Scored]| all.first().map_or(f64::NEG_INFINITY, |s| s.score);
@@ -99,23 +106,36 @@ pub(super) fn candidates(drawing: &Drawing) -> Vec<Directions> {
     readings
 }
 
-/// Whether a drawing's straight edges and arcs are exact: most edges have a parallel one, most arcs
-/// are ellipses. Whole circles are left out, as they are shifted but not bent by errors of their
-/// one vertex; so are other curves, which may be anything.
+/// Whether a drawing's straight edges and arcs are exact.
 pub(crate) fn is_exact(drawing: &Drawing) -> bool {
-    let within = EXACT * drawing.size();
-    let evidence = Evidence::new(drawing, within);
-    let clusters = evidence.clusters.iter().map(|c| c.members.len());
-    let partnered: usize = clusters.filter(|&n| n > 1).sum();
+    agrees(drawing, FINE[0] * drawing.size())
+}
+
+/// Whether a drawing's coordinates have a standard error of no more: most edges have a parallel one,
+/// as near as that makes them, most arcs are ellipses. Whole circles are left out, as they are
+/// shifted but not bent by errors of their one vertex; so are other curves, which may be anything.
+fn agrees(drawing: &Drawing, error: f64) -> bool {
+    let evidence = Evidence::new(drawing, error);
+    let mut turned: Vec<f64> = Vec::new();
+    for cluster in evidence.clusters.iter().filter(|c| c.members.len() > 1) {
+        turned.extend(cluster.members.iter().map(|&m| {
+            let segment = &evidence.segments[m];
+            (segment.direction.perp_dot(cluster.direction) * segment.length).abs()
+        }));
+    }
+    turned.sort_by(f64::total_cmp);
     let arcs = drawing.edges.iter().filter_map(|e| match e.curve {
-        Curve2::Ellipse(arc) if e.v[0] != e.v[1] => Some(arc.residual < within),
+        Curve2::Ellipse(arc) if e.v[0] != e.v[1] => Some(arc.residual < OFF_ARC * error),
         _ => None,
     });
     let (sharp, all) = arcs.fold((0, 0), |(sharp, all), is| {
         (sharp + usize::from(is), all + 1)
     });
     let straight = evidence.segments.len();
-    straight < 2 || 2 * (partnered + sharp) > straight + all
+    // Of many edges that are not quite parallel each is near to some other one by chance.
+    let near = |typical: &f64| *typical < TYPICAL * SQRT_2 * error;
+    turned.get(turned.len() / 2).is_none_or(near)
+        && (straight < 2 || 2 * (turned.len() + sharp) > straight + all)
 }
 
 /// The evidence at one precision, with what may be a circle at it.
@@ -218,7 +238,7 @@ fn gain(evidence: &Evidence, segment: &Segment, axis: DVec3, loose: f64) -> f64 
     if length < 1e-3 {
         return 0.0;
     }
-    let error = std::f64::consts::SQRT_2 * evidence.precision * loose;
+    let error = SQRT_2 * evidence.precision * loose;
     let off = segment.direction.perp_dot(drawn) / length * segment.length;
     // Of three axes the best is taken.
     let chance = PI * segment.length / (3.0 * error * TAU.sqrt());
@@ -246,7 +266,7 @@ fn refined(evidence: &Evidence, mut frame: DMat3, axes: usize) -> DMat3 {
                 continue;
             };
             let (residual, slope) = aside(s.direction, frame.col(k));
-            let error = std::f64::consts::SQRT_2 * evidence.precision / s.length;
+            let error = SQRT_2 * evidence.precision / s.length;
             add(residual, slope, error);
         }
         for g in &evidence.circles {
