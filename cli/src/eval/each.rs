@@ -38,6 +38,8 @@ struct Solid {
     solid_ms: Option<f64>,
     /// Distance from the true solid, in its half diagonals.
     chamfer: Option<f64>,
+    /// True right angles between neighbouring planes, and those of them that are exact in the lift.
+    right_angles: Option<[usize; 2]>,
 }
 
 impl<'a> Row<'a> {
@@ -63,6 +65,7 @@ impl<'a> Row<'a> {
                 lift_ms: measured.lift_ms,
                 solid_ms: measured.solid_ms,
                 chamfer: measured.compared.as_ref().map(|c| c.chamfer),
+                right_angles: measured.right_angles.map(|a| [a.wanted, a.exact]),
             }),
         }
     }

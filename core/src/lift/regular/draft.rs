@@ -288,6 +288,12 @@ impl<'a, 'b> Draft<'a, 'b> {
         numbers.len() + 3
     }
 
+    /// Number of surfaces that are along no axis of the model.
+    pub(super) fn oblique(&self) -> usize {
+        let along = |b: &Body| matches!(self.problem.dirs[b.dir], Dir::Fixed(d) if DVec3::AXES.contains(&d.abs()));
+        self.used().iter().filter(|b| !along(b)).count()
+    }
+
     /// Share of the surfaces that are along a known direction.
     pub(super) fn square_share(&self) -> f64 {
         let used = self.used();

@@ -41,6 +41,11 @@ const WILD: f64 = 5.0;
 /// the logarithm of the number of coordinates (Schwarz 1978).
 const FREEDOM: f64 = 3.0;
 
+/// What a surface costs that is not along an axis of the frame, in squared errors: parts have about
+/// ten times as many that are. A frame that is not the part's can fit as well, but makes more surfaces
+/// oblique, and usual angles are met by chance.
+const OBLIQUE: f64 = 5.0;
+
 /// What a condition that is missed by one error costs, and the most that it may.
 const OPEN: f64 = 100.0;
 const MOST_OPEN: f64 = 1000.0;
@@ -163,6 +168,8 @@ struct Attempt {
     violation: f64,
     /// Numbers left to the fit.
     freedom: usize,
+    /// Surfaces along no axis of the model.
+    oblique: usize,
     /// Edges between planes that are one.
     flat: usize,
     /// What no solid has.
@@ -180,6 +187,7 @@ impl Attempt {
             + FLAT * (self.flat + self.faults.vanished.len() + self.faults.tangled.len()) as f64
             + if self.faults.flat { SHEET } else { 0.0 }
             + FREEDOM * self.freedom as f64
+            + OBLIQUE * self.oblique as f64
     }
 
     /// Whether no other reading need be tried.
@@ -203,6 +211,7 @@ fn attempt(drawing: &Drawing, faces: &[Face], reading: &Directions) -> Result<At
         fits: draft.noise < LOUD * reading.precision / drawing.size(),
         violation: fitted.violation,
         freedom: draft.freedom(),
+        oblique: draft.oblique(),
         flat: flat(&draft),
         faults: Faults::of(&draft),
         square: if reading.is_frame() {

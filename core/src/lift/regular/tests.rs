@@ -1,10 +1,12 @@
-use glam::{DVec2, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 
+use super::{OBLIQUE, attempt};
 use crate::Progress;
 use crate::drawing::{Curve2, Drawing, SurfaceKind};
 use crate::identify::Face;
+use crate::lift::directions::{Axis, Directions};
 use crate::lift::testing::{Scene, extrusion, turned};
-use crate::lift::{Lift, LiftMethod, LiftOptions, Surface, lift};
+use crate::lift::{Camera, Lift, LiftMethod, LiftOptions, Surface, lift};
 
 /// A bracket: all its angles are right.
 pub(super) const BRACKET: [[f64; 2]; 6] = [
@@ -150,4 +152,44 @@ fn thin_tubes_by_hand_keep_their_walls() {
     let with_wall = (0..DRAWN).filter(has_wall).count();
     println!("{with_wall} of {DRAWN}");
     assert!(with_wall as u64 * 100 >= 80 * DRAWN, "{with_wall}");
+}
+
+/// The reading of a drawing in which what follows the axes of a frame does so.
+fn along(drawing: &Drawing, frame: DMat3) -> Directions {
+    let places = &drawing.truth.as_ref().unwrap().vertices3d;
+    let axes = [frame.x_axis, frame.y_axis, frame.z_axis].map(|direction| {
+        let follows = |e: &usize| {
+            let [a, b] = drawing.edges[*e].v.map(|v| places[v]);
+            (b - a).normalize().cross(direction).length() < 1e-6
+        };
+        Axis {
+            direction,
+            edges: (0..drawing.edges.len()).filter(follows).collect(),
+            circles: Vec::new(),
+        }
+    });
+    Directions {
+        axes: axes.into(),
+        slanted: Vec::new(),
+        camera: Camera::Parallel,
+        error: 0.01,
+        precision: 0.005,
+    }
+}
+
+/// Along its roof a house fits its drawing as well as along its walls, which are more.
+#[test]
+fn the_frame_of_most_surfaces_is_taken_of_those_that_fit() {
+    const NOISE: f64 = 0.005;
+    let house = [[0.0, 0.0], [1.6, 0.0], [1.6, 0.6], [0.8, 1.4], [0.0, 0.6]];
+    let turn = turned(0.6, 0.7, 0.05);
+    let (drawing, faces) = extrusion(turn, &house, 1.1);
+    let [walls, roof] = [0.0, 45.0f64].map(|degrees| {
+        let frame = DMat3::from_quat(turn) * DMat3::from_rotation_z(degrees.to_radians());
+        attempt(&drawing, &faces, &along(&drawing, frame)).unwrap()
+    });
+    assert_eq!([walls.oblique, roof.oblique], [2, 3]);
+    assert_eq!(walls.freedom, roof.freedom);
+    let apart = roof.cost(NOISE) - walls.cost(NOISE);
+    assert!((apart - OBLIQUE).abs() < 1e-3, "{apart}");
 }
