@@ -26,6 +26,13 @@ const FINE: [f64; 6] = [1e-6, 3e-6, 1e-5, 3e-5, 1e-4, 2.5e-4];
 /// Half of all edges are turned against their parallels by less, in standard errors of their ends.
 const TYPICAL: f64 = 0.5;
 
+/// Largest step of rounded coordinates, relative to the size, and how near they are to multiples.
+const COARSEST: f64 = 0.02;
+const GRID: f64 = 1e-6;
+
+/// Rounding parts edges into at least so many times as many directions.
+const PARTED: f64 = 1.25;
+
 /// Points of an arc are off its ellipse by at most so many standard errors.
 const OFF_ARC: f64 = 5.0;
 
@@ -77,8 +84,7 @@ struct Scored {
 pub(super) fn candidates(drawing: &Drawing) -> Vec<Directions> {
     let size = drawing.size();
     let mut best: Option<(Evidence, Vec<Scored>)> = None;
-    let fine = FINE.into_iter().find(|p| agrees(drawing, p * size));
-    for relative in fine.into_iter().chain(PRECISIONS) {
+    for relative in level(drawing).into_iter().chain(PRECISIONS) {
         let evidence = evidence(drawing, relative * size);
         let all = scored(&evidence);
         let top = |all: &[Scored]| all.first().map_or(f64::NEG_INFINITY, |s| s.score);
@@ -108,7 +114,44 @@ pub(super) fn candidates(drawing: &Drawing) -> Vec<Directions> {
 
 /// Whether a drawing's straight edges and arcs are exact.
 pub(crate) fn is_exact(drawing: &Drawing) -> bool {
-    agrees(drawing, FINE[0] * drawing.size())
+    level(drawing) == Some(FINE[0])
+}
+
+/// Whether a drawing is all but exact, as by coordinates that were rounded.
+pub(crate) fn is_rounded(drawing: &Drawing) -> bool {
+    level(drawing) > Some(FINE[0])
+}
+
+/// Standard error of an exact or nearly exact drawing's coordinates, relative to its size.
+fn level(drawing: &Drawing) -> Option<f64> {
+    let size = drawing.size();
+    match rounding(drawing) {
+        Some(error) => Some(error / size).filter(|e| *e < PRECISIONS[0]),
+        None => FINE.into_iter().find(|p| agrees(drawing, p * size)),
+    }
+}
+
+/// Standard error of coordinates that were rounded to decimals, if that parted edges that are
+/// parallel. Many rounded edges are the same vector, so that it does not show in how near they are.
+fn rounding(drawing: &Drawing) -> Option<f64> {
+    let size = drawing.size();
+    let finest = 12.0_f64.sqrt() * FINE[0] * size;
+    let coarsest = (COARSEST * size).log10().floor() as i32;
+    let on_grid = |step: f64| {
+        let off = |x: f64| (x / step - (x / step).round()).abs() < GRID;
+        drawing.vertices.iter().all(|v| off(v.x) && off(v.y))
+    };
+    let steps = (0..10).map(|k| 10f64.powi(coarsest - k));
+    let step = steps.take_while(|s| *s > finest).find(|s| on_grid(*s))?;
+    let error = step / 12f64.sqrt();
+    let [parted, meant] =
+        [FINE[0] * size, error].map(|precision| Evidence::new(drawing, precision).clusters);
+    // Short edges have no direction at the coarser precision.
+    let told: usize = meant.iter().map(|c| c.members.len()).sum();
+    let parted = parted
+        .iter()
+        .filter(|c| c.members.iter().any(|&m| m < told));
+    (parted.count() as f64 > PARTED * meant.len() as f64).then_some(error)
 }
 
 /// Whether a drawing's coordinates have a standard error of no more: most edges have a parallel one,

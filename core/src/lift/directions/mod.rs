@@ -26,7 +26,7 @@ use glam::{DMat3, DVec3};
 use super::{Camera, LiftError};
 use crate::drawing::{Drawing, Projection};
 
-pub(crate) use coarse::{is_exact, recognised};
+pub(crate) use coarse::{is_exact, is_rounded, recognised};
 pub(crate) use evidence::{AGREE, Evidence};
 
 /// One direction and what supports it.

@@ -143,6 +143,31 @@ fn a_front_view_is_refused() {
 }
 
 #[test]
+fn rounded_coordinates_are_told_from_exact_ones_and_from_those_by_hand() {
+    let rounded_to = |step: f64| {
+        let boxes = [DVec3::ONE, DVec3::new(0.37, 0.61, 0.53)].map(box_lines);
+        let mut d = drawing(turned(0.6, 0.7, 0.3), &boxes.concat(), &[]);
+        for v in &mut d.vertices {
+            *v = (*v / step).round() * step;
+        }
+        d
+    };
+    let told = |step| {
+        let d = rounded_to(step);
+        (is_exact(&d), is_rounded(&d))
+    };
+    assert_eq!(told(1e-9), (true, false));
+    assert_eq!(told(1e-6), (true, false));
+    assert_eq!(told(1e-4), (false, true));
+    assert_eq!(told(3e-2), (false, false));
+    // What was drawn on a grid was not rounded to it.
+    let shear = |p: DVec3| DVec3::new(p.x + 0.5 * p.z, p.y + 0.2 * p.z, 0.0);
+    let lines = box_lines(DVec3::new(4.0, 3.0, 2.0)).into_iter();
+    let lines: Vec<_> = lines.map(|line| line.map(shear)).collect();
+    assert!(is_exact(&drawing(DQuat::IDENTITY, &lines, &[])));
+}
+
+#[test]
 fn lines_in_no_common_directions_are_refused() {
     let fan: Vec<_> = (0..5)
         .map(|i| {

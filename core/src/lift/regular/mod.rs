@@ -26,7 +26,7 @@ mod touches;
 
 pub use report::{Regular, Snap};
 
-use super::directions::{Directions, is_exact, recognised};
+use super::directions::{Directions, is_exact, is_rounded, recognised};
 use super::sheet::Sheet;
 use super::{Lift, LiftError, LiftMethod, LiftOptions, solve};
 use crate::drawing::{Drawing, Projection};
@@ -147,10 +147,11 @@ fn is_same(a: &Directions, b: &Directions) -> bool {
 
 /// Whether a drawing may be inexact, from its lift as it is drawn.
 pub(super) fn is_wanted(drawing: &Drawing, lift: Option<&Lift>) -> bool {
+    let rounded = || drawing.projection == Projection::Orthographic && is_rounded(drawing);
     let exact = |l: &Lift| {
         let explained =
             Directions::estimate(drawing).is_ok_and(|d| d.precision < SHARP * drawing.size());
-        l.method == LiftMethod::Exact && l.conflicts.is_empty() && explained
+        l.method == LiftMethod::Exact && l.conflicts.is_empty() && explained && !rounded()
     };
     !lift.is_some_and(exact)
 }
