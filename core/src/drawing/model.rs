@@ -161,6 +161,19 @@ impl Default for Limits {
 }
 
 impl Drawing {
+    /// A parallel projection without a name, a source and the truth, for tests.
+    #[cfg(test)]
+    pub(crate) fn orthographic(vertices: Vec<DVec2>, edges: Vec<Edge>) -> Self {
+        Self {
+            id: String::new(),
+            source: String::new(),
+            projection: Projection::Orthographic,
+            vertices,
+            edges,
+            truth: None,
+        }
+    }
+
     /// Half diagonal of the bounding box of all points, in drawing units; the scale for tolerances.
     pub fn size(&self) -> f64 {
         let points = || self.edges.iter().flat_map(|e| &e.points);

@@ -9,6 +9,7 @@ use crate::drawing::{Drawing, SurfaceKind};
 use crate::identify::Face;
 
 use super::support::Support;
+use super::uses::Use;
 use super::view::View;
 
 /// Cosine between the normal and the view below which a surface is seen edge-on.
@@ -18,20 +19,16 @@ pub(super) const GRAZING: f64 = 0.05;
 const DISSENT: f64 = 0.1;
 
 /// For every face: 1 if it is seen against the gradient of its surface, -1 if along it; `None` if
-/// nothing tells. `vertices` are those of the drawing in space.
+/// nothing tells. `uses` are those of every edge, `vertices` those of the drawing in
+/// space.
 pub(super) fn sides(
     drawing: &Drawing,
     faces: &[Face],
+    uses: &[[Use; 2]],
     supports: &[Support],
     vertices: &[DVec3],
     view: &View,
 ) -> Vec<Option<f64>> {
-    let mut beside = vec![Vec::new(); drawing.edges.len()];
-    for (f, face) in faces.iter().enumerate() {
-        for coedge in face.loops.iter().flatten() {
-            beside[coedge.edge()].push(f);
-        }
-    }
     let judge = |f: usize| {
         let support = &supports[f];
         // What stands in for another surface has outlines of its own.
@@ -49,8 +46,8 @@ pub(super) fn sides(
             let edge = &drawing.edges[e];
             vote(vertices[edge.v[0]]);
             vote(vertices[edge.v[1]]);
-            let plane = beside[e].iter().find_map(|&g| match supports[g] {
-                Support::Plane { .. } => Some(supports[g]),
+            let plane = uses[e].iter().find_map(|u| match supports[u.face] {
+                Support::Plane { .. } => Some(supports[u.face]),
                 _ => None,
             });
             if let (Some(plane), false) = (plane, edge.is_straight()) {
@@ -76,7 +73,7 @@ mod tests {
     use glam::{DMat3, DVec2};
 
     use super::*;
-    use crate::drawing::{CoEdge, Curve2, Edge, Projection};
+    use crate::drawing::{CoEdge, Curve2, Edge};
     use crate::identify::Evidence;
     use crate::lift::Camera;
 
@@ -92,17 +89,13 @@ mod tests {
                 curve: Curve2::Line,
             }
         });
-        let drawing = Drawing {
-            id: String::new(),
-            source: String::new(),
-            projection: Projection::Orthographic,
-            vertices: vertices
+        let drawing = Drawing::orthographic(
+            vertices
                 .iter()
                 .map(|p| p.truncate())
                 .collect::<Vec<DVec2>>(),
-            edges: edges.collect(),
-            truth: None,
-        };
+            edges.collect(),
+        );
         let face = Face {
             kind,
             loops: vec![(0..4).map(|e| CoEdge::new(e, false)).collect()],
@@ -115,7 +108,19 @@ mod tests {
             radius: 1.0,
         };
         let view = View::new(Camera::Parallel, DMat3::IDENTITY);
-        sides(&drawing, &[face], &[cylinder], &vertices, &view)[0]
+        let edge = Use {
+            face: 0,
+            walk: 0,
+            reversed: false,
+        };
+        sides(
+            &drawing,
+            &[face],
+            &[[edge; 2]; 4],
+            &[cylinder],
+            &vertices,
+            &view,
+        )[0]
     }
 
     #[test]

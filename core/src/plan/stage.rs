@@ -148,7 +148,7 @@ pub fn plan(drawing: &Drawing, faces: &[Face], lift: &Lift, options: &PlanOption
         limit: LIMIT * size,
     };
     let vertices = incidence.meet(&snapped.supports, &outlines, &lifted, lengths)?;
-    let sides = side::sides(drawing, faces, &supports, &vertices, &view);
+    let sides = side::sides(drawing, faces, &uses, &supports, &vertices, &view);
     let mut edges = Vec::with_capacity(drawing.edges.len());
     for (e, (edge, [a, b])) in drawing.edges.iter().zip(&uses).enumerate() {
         let place = Place {

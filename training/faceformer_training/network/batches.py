@@ -116,7 +116,7 @@ class Dealt(IterableDataset):
         return self.source.batches(self.skip + worker.id, worker.num_workers)
 
 
-def ahead(source: Source, skip: int) -> Iterator[tuple[int, Any, int]]:
+def made_ahead(source: Source, skip: int) -> Iterator[tuple[int, Any, int]]:
     """A source's batches, made ahead of their use: in a thread, or in ``workers`` processes."""
     workers = source.config.workers
     if workers == 0:

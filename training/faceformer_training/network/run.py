@@ -16,7 +16,7 @@ from lightning_fabric import Fabric
 from safetensors.torch import load_file
 from tqdm import tqdm
 
-from .batches import Source, ahead
+from .batches import Source, made_ahead
 from .config import RunConfig
 
 
@@ -85,7 +85,7 @@ def run(task: Task, resume: bool, stop: int | None = None) -> Path:
     bar = tqdm(total=config.steps, initial=state["step"], disable=not fabric.is_global_zero)
     started = time.monotonic()
     last_step = config.steps if stop is None else min(stop, config.steps)
-    for epoch, batch, count in ahead(source, skip=state["step"]):
+    for epoch, batch, count in made_ahead(source, skip=state["step"]):
         step = state["step"]
         if step >= last_step:
             break

@@ -73,7 +73,7 @@ mod tests {
     use glam::DVec2;
 
     use super::*;
-    use crate::drawing::{Curve2, Edge, Projection};
+    use crate::drawing::{Curve2, Edge};
 
     /// A cylinder that stands on its end, seen from above: two circles and two silhouettes.
     fn cylinder() -> Drawing {
@@ -100,19 +100,15 @@ mod tests {
                 points,
             })
             .collect();
-        Drawing {
-            id: String::new(),
-            source: String::new(),
-            projection: Projection::Orthographic,
-            vertices: vec![
+        Drawing::orthographic(
+            vec![
                 edges[0].points[0],
                 edges[1].points[0],
                 edges[2].points[0],
                 edges[3].points[0],
             ],
             edges,
-            truth: None,
-        }
+        )
     }
 
     fn walk(signed: &[i64]) -> Vec<CoEdge> {

@@ -68,14 +68,7 @@ mod tests {
             edge([2, 3], Curve2::Polyline),
             edge([3, 0], Curve2::Line),
         ];
-        let drawing = Drawing {
-            id: String::new(),
-            source: String::new(),
-            projection: Projection::Orthographic,
-            vertices,
-            edges,
-            truth: None,
-        };
+        let drawing = Drawing::orthographic(vertices, edges);
         (drawing, (0..4).map(|e| CoEdge::new(e, false)).collect())
     }
 

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::drawing::{Curve2, Drawing, Edge, Projection};
+use crate::drawing::{Curve2, Drawing, Edge};
 
 /// A drawing of 3D points joined by straight edges, seen from a generic direction.
 pub(super) fn wireframe(points: &[DVec3], edges: &[[usize; 2]]) -> Drawing {
@@ -16,14 +16,7 @@ pub(super) fn wireframe(points: &[DVec3], edges: &[[usize; 2]]) -> Drawing {
             curve: Curve2::Line,
         })
         .collect();
-    Drawing {
-        id: String::new(),
-        source: String::new(),
-        projection: Projection::Orthographic,
-        vertices,
-        edges,
-        truth: None,
-    }
+    Drawing::orthographic(vertices, edges)
 }
 
 /// A cube: 8 vertices, 12 edges, 6 loops.
@@ -89,12 +82,5 @@ fn arcs(ends: &[[usize; 2]], sweeps: &[(f64, f64)]) -> Drawing {
         })
         .collect();
     let vertices = (0..ends.len()).map(|k| edges[k].points[0]).collect();
-    Drawing {
-        id: String::new(),
-        source: String::new(),
-        projection: Projection::Orthographic,
-        vertices,
-        edges,
-        truth: None,
-    }
+    Drawing::orthographic(vertices, edges)
 }

@@ -119,7 +119,7 @@ pub(crate) fn is_exact(drawing: &Drawing) -> bool {
 
 /// Whether a drawing is all but exact, as by coordinates that were rounded.
 pub(crate) fn is_rounded(drawing: &Drawing) -> bool {
-    level(drawing) > Some(FINE[0])
+    level(drawing).is_some_and(|error| error > FINE[0])
 }
 
 /// Standard error of an exact or nearly exact drawing's coordinates, relative to its size.
@@ -135,7 +135,9 @@ fn level(drawing: &Drawing) -> Option<f64> {
 /// parallel. Many rounded edges are the same vector, so that it does not show in how near they are.
 fn rounding(drawing: &Drawing) -> Option<f64> {
     let size = drawing.size();
-    let finest = 12.0_f64.sqrt() * FINE[0] * size;
+    // Rounding errors are spread evenly over a step.
+    let spread = 12f64.sqrt().recip();
+    let finest = FINE[0] * size / spread;
     let coarsest = (COARSEST * size).log10().floor() as i32;
     let on_grid = |step: f64| {
         let off = |x: f64| (x / step - (x / step).round()).abs() < GRID;
@@ -143,7 +145,7 @@ fn rounding(drawing: &Drawing) -> Option<f64> {
     };
     let steps = (0..10).map(|k| 10f64.powi(coarsest - k));
     let step = steps.take_while(|s| *s > finest).find(|s| on_grid(*s))?;
-    let error = step / 12f64.sqrt();
+    let error = step * spread;
     let [parted, meant] =
         [FINE[0] * size, error].map(|precision| Evidence::new(drawing, precision).clusters);
     // Short edges have no direction at the coarser precision.

@@ -47,14 +47,7 @@ fn drawing(turn: DQuat, lines: &[[DVec3; 2]], circles: &[(DVec3, DVec3, f64)]) -
             });
         }
     }
-    Drawing {
-        id: String::new(),
-        source: String::new(),
-        projection: Projection::Orthographic,
-        vertices,
-        edges,
-        truth: None,
-    }
+    Drawing::orthographic(vertices, edges)
 }
 
 fn box_lines(size: DVec3) -> Vec<[DVec3; 2]> {

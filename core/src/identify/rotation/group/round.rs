@@ -6,7 +6,7 @@ use glam::{DMat3, DVec3};
 
 use super::links::{Link, links};
 use super::shapes::Shapes;
-use crate::drawing::{CoEdge, Curve2, Drawing, Edge, Graph, Projection, SurfaceKind};
+use crate::drawing::{CoEdge, Curve2, Drawing, Edge, Graph, SurfaceKind};
 use crate::identify::{Evidence, Face};
 use crate::lift::{Pieces, Readings};
 
@@ -103,14 +103,7 @@ pub(super) fn drawn(all: &[Round]) -> (Drawing, Vec<Face>) {
             evidence: Evidence::default(),
         }));
     }
-    let drawing = Drawing {
-        id: String::new(),
-        source: String::new(),
-        projection: Projection::Orthographic,
-        vertices,
-        edges,
-        truth: None,
-    };
+    let drawing = Drawing::orthographic(vertices, edges);
     (drawing, loops)
 }
 

@@ -9,7 +9,7 @@ use super::super::joins::{Role, State};
 use super::super::links::links;
 use super::super::shapes::Shapes;
 use super::{Chain, chains};
-use crate::drawing::{CoEdge, Curve2, Drawing, Edge, Graph, Projection, SurfaceKind};
+use crate::drawing::{CoEdge, Curve2, Drawing, Edge, Graph, SurfaceKind};
 use crate::identify::{Evidence, Face};
 use crate::lift::{Pieces, Readings};
 
@@ -32,14 +32,7 @@ fn turned(profile: &[(f64, f64)]) -> Drawing {
             }
         })
         .collect();
-    Drawing {
-        id: String::new(),
-        source: String::new(),
-        projection: Projection::Orthographic,
-        vertices: edges.iter().map(|e| e.points[0]).collect(),
-        edges,
-        truth: None,
-    }
+    Drawing::orthographic(edges.iter().map(|e| e.points[0]).collect(), edges)
 }
 
 /// Both loops of so many circles.
