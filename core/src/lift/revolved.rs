@@ -134,7 +134,8 @@ fn outlines(sheet: &Sheet<'_>, face: usize, edges: &[usize]) -> Vec<Center> {
 }
 
 /// Ends of edges along the axis, where walls of a prism are cut by the surface: if they are drawn
-/// on one circle around the axis, they are at one height.
+/// on one circle around the axis, they are at one height. The surface's own lines are no walls; four
+/// ends of a cylinder's outlines are on a circle by symmetry.
 fn ring(
     sheet: &Sheet<'_>,
     edges: &[usize],
@@ -152,7 +153,7 @@ fn ring(
             sheet
                 .edges_at(v)
                 .iter()
-                .any(|&e| sheet.edge_axis[e] == Some(k))
+                .any(|&e| sheet.edge_axis[e] == Some(k) && edges.binary_search(&e).is_err())
         })
         .collect();
     ends.sort_unstable();
