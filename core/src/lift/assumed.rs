@@ -7,6 +7,7 @@ use super::camera::Relation;
 use super::directions::AGREE;
 use super::revolved;
 use super::rows::{Tag, Unknowns, along, beside_axes, normal_to};
+use super::rulings::rulings;
 use super::sheet::Sheet;
 use super::system::System;
 use crate::drawing::{Curve2, SurfaceKind};
@@ -15,7 +16,7 @@ use crate::drawing::{Curve2, SurfaceKind};
 pub(super) type Level = fn(&Sheet<'_>, &Unknowns, &mut System<Tag>);
 
 /// The sets, surest first.
-pub(super) const LEVELS: [Level; 10] = [
+pub(super) const LEVELS: [Level; 11] = [
     parallel,
     // The sides of a frustum would pass for ends of prisms.
     frustums,
@@ -23,6 +24,7 @@ pub(super) const LEVELS: [Level; 10] = [
     beside_axes,
     revolved::on_one_axis,
     revolved::on_cylinder,
+    rulings,
     revolved::equal_ends,
     generators,
     pencils,

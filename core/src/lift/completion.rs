@@ -18,7 +18,7 @@ use super::surfaces::surfaces_of;
 const AGREE: f64 = 1e-4;
 
 /// A line of sight at a smaller angle to the surface (its sine) does not tell the depth.
-const GRAZING: f64 = 0.05;
+const GRAZING: f64 = 0.02;
 
 /// A line of sight that passes a surface by less than this share of the drawing's size touches it.
 const TOUCHES: f64 = 1e-3;
@@ -178,13 +178,23 @@ fn touching(surface: &Surface, from: DVec3, ray: DVec3, tolerance: f64) -> Optio
     }
 }
 
-/// The sign of a surface's gradient along the lines of sight at the known vertices of a face, which
-/// is seen from one side.
+/// The sign of a surface's gradient along the lines of sight at the known vertices of a face, and in
+/// the middle of its known circles; a face is seen from one side.
 fn side(sheet: &Sheet<'_>, heights: &Heights, surface: &Surface, face: usize) -> Option<f64> {
-    let known = sheet.corners[face].iter().filter(|&&v| heights.known[v]);
-    let slopes = known.map(|&v| {
-        let (_, ray) = sheet.camera().ray(sheet.drawing.vertices[v]);
-        let p = sheet.place(sheet.drawing.vertices[v], heights.of(v));
+    let place = |v: usize| sheet.place(sheet.drawing.vertices[v], heights.of(v));
+    let corners = sheet.corners[face].iter().filter(|&&v| heights.known[v]);
+    let corners = corners.map(|&v| (sheet.drawing.vertices[v], place(v)));
+    let middles = sheet.edges_of(face).iter().filter_map(|&e| {
+        let (k, _) = sheet.circles[e]?;
+        let edge = &sheet.drawing.edges[e];
+        let middle = *edge.points.get(edge.points.len() / 2)?;
+        let n = sheet.axis(k);
+        let (from, ray) = sheet.camera().ray(middle);
+        let t = n.dot(place(edge.v[0]) - from) / n.dot(ray);
+        heights.known[edge.v[0]].then_some((middle, from + ray * t))
+    });
+    let slopes = corners.chain(middles).map(|(drawn, p)| {
+        let (_, ray) = sheet.camera().ray(drawn);
         surface.gradient(p).dot(ray.normalize())
     });
     let clear: Vec<f64> = slopes

@@ -25,6 +25,7 @@ mod regular;
 mod revolved;
 mod ring_torus;
 mod rows;
+mod rulings;
 mod shape;
 mod sheet;
 mod solve;

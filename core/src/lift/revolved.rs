@@ -19,10 +19,10 @@ use crate::drawing::{Curve2, SurfaceKind};
 const OUTLINE: f64 = 1.0 - 1e-5;
 
 /// A point of an axis, and how well it is drawn.
-struct Center {
-    at: DVec2,
-    depth: Depth,
-    error: f64,
+pub(super) struct Center {
+    pub(super) at: DVec2,
+    pub(super) depth: Depth,
+    pub(super) error: f64,
 }
 
 /// Centres, tips and rings of vertices of one surface of revolution lie on its axis.
@@ -61,7 +61,7 @@ pub(super) fn on_one_axis(sheet: &Sheet<'_>, _: &Unknowns, system: &mut System<T
     }
 }
 
-fn center_of(sheet: &Sheet<'_>, vertex: usize, k: usize, circle: &DrawnCircle) -> Center {
+pub(super) fn center_of(sheet: &Sheet<'_>, vertex: usize, k: usize, circle: &DrawnCircle) -> Center {
     let n = sheet.axis(k);
     let facing = sheet.camera().facing(n, circle.center);
     Center {

@@ -134,7 +134,12 @@ fn round(
             // Only what fits as if it were drawn for it.
             judge::best(&evidence, candidates, ROUNDS[0] * sheet.size)
         } else {
-            judge::best(&evidence, candidates, tolerance)
+            judge::best(&evidence, candidates, tolerance).or_else(|| {
+                let may_bulge = kind == SurfaceKind::Torus && !evidence.outlines.is_empty();
+                let axes = if may_bulge { axes::axes(&evidence) } else { Vec::new() };
+                let bulges = axes.iter().flat_map(|axis| profile::bulges(&evidence, axis));
+                judge::best(&evidence, bulges.collect(), tolerance)
+            })
         };
         if let Some(surface) = found {
             part.iter().for_each(|&f| known[f] = surface);

@@ -1,5 +1,7 @@
 //! Cones and tori around a known axis, from the profile: distance from the axis over height.
 
+use std::f64::consts::PI;
+
 use glam::DVec2;
 
 use super::axes::Axis;
@@ -80,6 +82,37 @@ pub(super) fn tori(evidence: &Evidence, axis: &Axis) -> Vec<Surface> {
             minor,
         })
         .collect()
+}
+
+/// Tori around an axis through two of its circles alone, from flat to nearly whole tubes: the outlines
+/// tell which.
+pub(super) fn bulges(evidence: &Evidence, axis: &Axis) -> Vec<Surface> {
+    /// Number of tubes on either side of the upright one.
+    const EACH: i32 = 5;
+    let points: Vec<DVec2> = evidence.points().map(|p| axis.profile(p).into()).collect();
+    let Some((&first, rest)) = points.split_first() else {
+        return Vec::new();
+    };
+    let far = rest.iter().copied().fold(first, |best, p| {
+        if p.distance(first) > best.distance(first) { p } else { best }
+    });
+    let (chord, middle) = (far - first, first.midpoint(far));
+    let near = |p: &DVec2| p.distance(first).min(p.distance(far)) < 1e-3 * chord.length();
+    if !points.iter().all(near) {
+        return Vec::new();
+    }
+    let step = PI / f64::from(2 * (EACH + 1));
+    let tube = |i: i32| {
+        let bulge = f64::from(i) * step;
+        let center = middle + chord.perp() * (0.5 * bulge.tan());
+        (center.x > 0.0).then(|| Surface::Torus {
+            center: axis.origin + axis.direction * center.y,
+            axis: axis.direction,
+            major: center.x,
+            minor: 0.5 * chord.length() / bulge.cos(),
+        })
+    };
+    (-EACH..=EACH).filter_map(tube).collect()
 }
 
 /// Points of the profile with the surface's unit normal there, up to its sign.
