@@ -12,6 +12,9 @@ use super::sheet::Sheet;
 use super::system::System;
 use crate::drawing::{Curve2, SurfaceKind};
 
+/// A height and the same height as another curve gives it differ by less than this share.
+const SAME: f64 = 1e-3;
+
 /// A set of rows that may be added.
 pub(super) type Level = fn(&Sheet<'_>, &Unknowns, &mut System<Tag>);
 
@@ -274,7 +277,8 @@ impl Depth {
         }
     }
 
-    /// Adds the row that relates this height to that of `other`.
+    /// Adds the row that relates this height to that of `other`, unless it relates a height to itself:
+    /// of two halves of a circle only their errors would be left.
     pub(super) fn relate(
         &self,
         other: &Self,
@@ -285,6 +289,12 @@ impl Depth {
     ) {
         let from = self.terms.iter().map(|&(i, c)| (i, -c * row.from));
         let to = other.terms.iter().map(|&(i, c)| (i, c * row.to));
+        if let ([(a, c)], [(b, d)]) = (&self.terms[..], &other.terms[..])
+            && a == b
+            && (d * row.to - c * row.from).abs() < SAME * (c * row.from).abs()
+        {
+            return;
+        }
         let rhs = row.rise - row.to * other.shift + row.from * self.shift;
         system.push(from.chain(to), rhs, weight, tag);
     }
