@@ -61,7 +61,12 @@ pub(super) fn on_one_axis(sheet: &Sheet<'_>, _: &Unknowns, system: &mut System<T
     }
 }
 
-pub(super) fn center_of(sheet: &Sheet<'_>, vertex: usize, k: usize, circle: &DrawnCircle) -> Center {
+pub(super) fn center_of(
+    sheet: &Sheet<'_>,
+    vertex: usize,
+    k: usize,
+    circle: &DrawnCircle,
+) -> Center {
     let n = sheet.axis(k);
     let facing = sheet.camera().facing(n, circle.center);
     Center {
@@ -134,8 +139,8 @@ fn outlines(sheet: &Sheet<'_>, face: usize, edges: &[usize]) -> Vec<Center> {
 }
 
 /// Ends of edges along the axis, where walls of a prism are cut by the surface: if they are drawn
-/// on one circle around the axis, they are at one height. The surface's own lines are no walls; four
-/// ends of a cylinder's outlines are on a circle by symmetry.
+/// on one circle around the axis, they are at one height. Outlines are no walls: by symmetry the four
+/// ends of a cylinder's are always on a circle.
 fn ring(
     sheet: &Sheet<'_>,
     edges: &[usize],
@@ -144,17 +149,17 @@ fn ring(
     system: &mut System<Tag>,
 ) -> Option<Center> {
     let open = |&&e: &&usize| !sheet.is_straight(e) && sheet.circles[e].is_none();
+    let is_wall = |e: &usize| {
+        sheet.edge_axis[*e] == Some(k)
+            && edges.binary_search(e).is_err()
+            && sheet.neighbours(*e).iter().any(|&f| sheet.is_planar(f))
+    };
     let ends = edges
         .iter()
         .filter(open)
         .flat_map(|&e| sheet.drawing.edges[e].v);
     let mut ends: Vec<usize> = ends
-        .filter(|&v| {
-            sheet
-                .edges_at(v)
-                .iter()
-                .any(|&e| sheet.edge_axis[e] == Some(k) && edges.binary_search(&e).is_err())
-        })
+        .filter(|&v| sheet.edges_at(v).iter().any(is_wall))
         .collect();
     ends.sort_unstable();
     ends.dedup();

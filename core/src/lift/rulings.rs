@@ -23,7 +23,10 @@ pub(super) fn rulings(sheet: &Sheet<'_>, _: &Unknowns, system: &mut System<Tag>)
             continue;
         }
         let lines: Vec<usize> = sheet.edges_of(face).to_vec();
-        let lines: Vec<usize> = lines.into_iter().filter(|&e| sheet.is_straight(e)).collect();
+        let lines: Vec<usize> = lines
+            .into_iter()
+            .filter(|&e| sheet.is_straight(e))
+            .collect();
         let circle = sheet.edges_of(face).iter().find_map(|&e| {
             let (k, circle) = sheet.circles[e]?;
             let v = sheet.drawing.edges[e].v[0];
@@ -105,8 +108,14 @@ fn relate(
     let away = ends.map(|v| sheet.drawing.vertices[v].distance(apex.at));
     let (near, far) = if away[0] < away[1] { (0, 1) } else { (1, 0) };
     let share = away[near] / away[far];
-    let own = apex.depth.terms.iter().map(|&(v, c)| (v, c * (share - 1.0)));
-    let terms = [(ends[near], 1.0), (ends[far], -share)].into_iter().chain(own);
+    let own = apex
+        .depth
+        .terms
+        .iter()
+        .map(|&(v, c)| (v, c * (share - 1.0)));
+    let terms = [(ends[near], 1.0), (ends[far], -share)]
+        .into_iter()
+        .chain(own);
     let rhs = apex.depth.shift * (1.0 - share);
     let error = error * (1.0 - share) + 4.0 * sheet.directions.precision;
     system.push(terms, rhs, error.recip(), tag);

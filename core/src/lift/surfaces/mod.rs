@@ -136,8 +136,14 @@ fn round(
         } else {
             judge::best(&evidence, candidates, tolerance).or_else(|| {
                 let may_bulge = kind == SurfaceKind::Torus && !evidence.outlines.is_empty();
-                let axes = if may_bulge { axes::axes(&evidence) } else { Vec::new() };
-                let bulges = axes.iter().flat_map(|axis| profile::bulges(&evidence, axis));
+                let axes = if may_bulge {
+                    axes::axes(&evidence)
+                } else {
+                    Vec::new()
+                };
+                let bulges = axes
+                    .iter()
+                    .flat_map(|axis| profile::bulges(&evidence, axis));
                 judge::best(&evidence, bulges.collect(), tolerance)
             })
         };

@@ -94,7 +94,11 @@ pub(super) fn bulges(evidence: &Evidence, axis: &Axis) -> Vec<Surface> {
         return Vec::new();
     };
     let far = rest.iter().copied().fold(first, |best, p| {
-        if p.distance(first) > best.distance(first) { p } else { best }
+        if p.distance(first) > best.distance(first) {
+            p
+        } else {
+            best
+        }
     });
     let (chord, middle) = (far - first, first.midpoint(far));
     let near = |p: &DVec2| p.distance(first).min(p.distance(far)) < 1e-3 * chord.length();
