@@ -6,6 +6,7 @@ use faer::sparse::{Argsort, Pair, SparseColMat, SymbolicSparseColMat};
 use faer::{Mat, Side};
 
 use super::{LiftError, NullSpace, Row, System};
+use crate::sets::Sets;
 
 /// Added to the diagonal of the scaled normal matrix, whose diagonal is 1. A direction in which the
 /// rows say less than this (a singular value below 3e-6 of the largest) counts as left open: data
@@ -104,7 +105,19 @@ pub(super) fn null_space<T>(system: &System<T>, active: &[bool]) -> Result<NullS
         }
     };
     let pattern = Pattern::new(system, active)?;
-    Ok(Factor::new(system, active, &pattern, system.open, unit)?.null_space())
+    let factor = Factor::new(system, active, &pattern, system.open, unit)?;
+    Ok(factor.null_space(&groups(system, active)))
+}
+
+/// Unknowns that rows tie to each other, each group sorted.
+fn groups<T>(system: &System<T>, active: &[bool]) -> Vec<Vec<usize>> {
+    let mut sets = Sets::new(system.unknowns());
+    for row in used(system, active) {
+        for pair in row.terms.windows(2) {
+            sets.join(pair[0].0, pair[1].0);
+        }
+    }
+    sets.groups()
 }
 
 fn used<'a, T>(system: &'a System<T>, active: &'a [bool]) -> impl Iterator<Item = &'a Row<T>> {
@@ -162,22 +175,26 @@ impl Factor {
         Ok(Self { llt, scale, eps })
     }
 
-    /// Inverse iteration on a block of pseudo-random vectors: what survives is null space.
-    fn null_space(&self) -> NullSpace {
+    /// Inverse iteration on a block of pseudo-random vectors: what survives is null space. Groups of
+    /// unknowns that share no row have null spaces of their own, which one block shows.
+    fn null_space(&self, groups: &[Vec<usize>]) -> NullSpace {
         let n = self.scale.len();
         let mut width = BLOCK.min(n);
-        loop {
+        let mut bases = vec![Vec::new(); groups.len()];
+        let mut open: Vec<usize> = (0..groups.len()).collect();
+        while !open.is_empty() {
             let mut block = Mat::from_fn(n, width, noise);
             for _ in 0..INVERSE_STEPS {
                 block = self.llt.solve(&block);
                 block *= faer::Scale(self.eps);
             }
-            let basis = independent_columns(&block);
-            if basis.len() < width || width == n {
-                return NullSpace::new(&basis, &self.scale);
-            }
+            open.retain(|&g| {
+                bases[g] = independent_columns(&block, &groups[g]);
+                bases[g].len() == width && width < groups[g].len()
+            });
             width = (2 * width).min(n);
         }
+        NullSpace::new(groups, &bases, &self.scale)
     }
 }
 
@@ -191,15 +208,17 @@ fn noise(row: usize, column: usize) -> f64 {
     (h >> 11) as f64 / (1u64 << 52) as f64 - 1.0
 }
 
-/// Orthonormal basis of the columns, by Gram-Schmidt with pivoting, twice for accuracy.
-fn independent_columns(block: &Mat<f64>) -> Vec<Vec<f64>> {
+/// Orthonormal basis of the columns in some of their rows, by Gram-Schmidt with pivoting, twice for
+/// accuracy.
+fn independent_columns(block: &Mat<f64>, rows: &[usize]) -> Vec<Vec<f64>> {
     let mut left: Vec<Vec<f64>> = (0..block.ncols())
-        .map(|k| (0..block.nrows()).map(|i| block[(i, k)]).collect())
+        .map(|k| rows.iter().map(|&i| block[(i, k)]).collect())
         .collect();
     let mut basis: Vec<Vec<f64>> = Vec::new();
-    while let Some(at) =
-        (0..left.len()).max_by(|&a, &b| dot(&left[a], &left[a]).total_cmp(&dot(&left[b], &left[b])))
-    {
+    loop {
+        let squares: Vec<f64> = left.iter().map(|v| dot(v, v)).collect();
+        let largest = (0..left.len()).max_by(|&a, &b| squares[a].total_cmp(&squares[b]));
+        let Some(at) = largest else { break };
         let mut v = left.swap_remove(at);
         for b in &basis {
             remove(&mut v, b);
