@@ -5,6 +5,8 @@
 
 mod file;
 mod network;
+mod ops;
+mod product;
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
