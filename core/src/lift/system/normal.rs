@@ -211,15 +211,9 @@ fn noise(row: usize, column: usize) -> f64 {
 /// Orthonormal basis of the columns in some of their rows, by Gram-Schmidt with pivoting, twice for
 /// accuracy.
 fn independent_columns(block: &Mat<f64>, rows: &[usize]) -> Vec<Vec<f64>> {
-    let mut left: Vec<Vec<f64>> = (0..block.ncols())
-        .map(|k| rows.iter().map(|&i| block[(i, k)]).collect())
-        .collect();
+    let mut left = Columns::new(block, rows);
     let mut basis: Vec<Vec<f64>> = Vec::new();
-    loop {
-        let squares: Vec<f64> = left.iter().map(|v| dot(v, v)).collect();
-        let largest = (0..left.len()).max_by(|&a, &b| squares[a].total_cmp(&squares[b]));
-        let Some(at) = largest else { break };
-        let mut v = left.swap_remove(at);
+    while let Some(mut v) = left.take_longest() {
         for b in &basis {
             remove(&mut v, b);
         }
@@ -228,12 +222,67 @@ fn independent_columns(block: &Mat<f64>, rows: &[usize]) -> Vec<Vec<f64>> {
             break;
         }
         v.iter_mut().for_each(|c| *c /= length);
-        for other in &mut left {
-            remove(other, &v);
-        }
+        left.remove(&v);
         basis.push(v);
     }
     basis
+}
+
+/// Columns side by side, so that what is done to all of them is done at once.
+struct Columns {
+    values: Vec<f64>,
+    stride: usize,
+    /// Squared length of each column that is left.
+    squares: Vec<f64>,
+}
+
+impl Columns {
+    fn new(block: &Mat<f64>, rows: &[usize]) -> Self {
+        let stride = block.ncols();
+        let places = rows.iter().flat_map(|&i| (0..stride).map(move |k| (i, k)));
+        let mut columns = Self {
+            values: places.map(|place| block[place]).collect(),
+            stride,
+            squares: vec![0.0; stride],
+        };
+        for row in columns.values.chunks_exact(stride) {
+            let squares = columns.squares.iter_mut().zip(row);
+            squares.for_each(|(sum, x)| *sum += x * x);
+        }
+        columns
+    }
+
+    /// Takes the longest column out; `None` if there is none.
+    fn take_longest(&mut self) -> Option<Vec<f64>> {
+        let squares = self.squares.iter().enumerate();
+        let (longest, _) = squares.max_by(|a, b| a.1.total_cmp(b.1))?;
+        self.squares.swap_remove(longest);
+        let last = self.squares.len();
+        let rows = self.values.chunks_exact_mut(self.stride);
+        let take = |row: &mut [f64]| {
+            row.swap(longest, last);
+            row[last]
+        };
+        Some(rows.map(take).collect())
+    }
+
+    /// Takes what is along a unit vector out of all.
+    fn remove(&mut self, unit: &[f64]) {
+        let count = self.squares.len();
+        let mut shares = vec![0.0; count];
+        for (row, u) in self.values.chunks_exact(self.stride).zip(unit) {
+            let sums = shares.iter_mut().zip(&row[..count]);
+            sums.for_each(|(sum, x)| *sum += x * u);
+        }
+        self.squares.fill(0.0);
+        for (row, u) in self.values.chunks_exact_mut(self.stride).zip(unit) {
+            let columns = row[..count].iter_mut().zip(&shares);
+            for ((x, share), square) in columns.zip(&mut self.squares) {
+                *x -= share * u;
+                *square += *x * *x;
+            }
+        }
+    }
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {

@@ -4,7 +4,7 @@
 use candle_core::{CpuStorage, CustomOp1, CustomOp3, Layout, Result, Shape, Tensor, bail};
 use candle_nn::VarBuilder;
 
-use super::product::{Rows, padded, product};
+use super::product::{PANEL, Rows, padded, product};
 
 /// Scores of the attention that are made at once: what a core keeps close.
 const BLOCK: usize = 1 << 15;
@@ -12,7 +12,7 @@ const BLOCK: usize = 1 << 15;
 /// A linear map.
 #[derive(Debug, Clone)]
 pub(super) struct Linear {
-    /// Turned over and [padded], `[in, out]`, as products take it.
+    /// Turned over, in panels, `[panels, in, PANEL]`, as products take it.
     weight: Tensor,
     bias: Tensor,
 }
@@ -32,8 +32,9 @@ impl Linear {
         Ok(Self {
             bias: Tensor::zeros(out, weight.dtype(), weight.device())?,
             weight: weight
-                .t()?
-                .pad_with_zeros(1, 0, padded(out) - out)?
+                .pad_with_zeros(0, 0, padded(out) - out)?
+                .reshape((padded(out) / PANEL, PANEL, from))?
+                .transpose(1, 2)?
                 .contiguous()?,
         })
     }
@@ -98,20 +99,17 @@ impl CustomOp3 for Affine {
         bias_layout: &Layout,
     ) -> Result<(CpuStorage, Shape)> {
         let (rows, from) = x_layout.shape().dims2()?;
-        let (depth, width) = weight_layout.shape().dims2()?;
+        let (panels, depth, _) = weight_layout.shape().dims3()?;
         let bias = floats(bias, bias_layout)?;
         let out = bias.len();
-        if from != depth || padded(out) != width {
-            bail!("{depth} by {width} weights for {from} by {out}");
+        if from != depth || padded(out) != panels * PANEL {
+            bail!("{panels} panels of {depth} rows for {from} by {out}");
         }
         let left = Rows {
             values: floats(x, x_layout)?,
             stride: from,
         };
-        let right = Rows {
-            values: floats(weight, weight_layout)?,
-            stride: width,
-        };
+        let right = floats(weight, weight_layout)?;
         let mut y = vec![0.0f32; rows * out];
         product(left, right, depth, (&mut y, out), out);
         for row in y.chunks_exact_mut(out) {
@@ -198,19 +196,13 @@ impl CustomOp1 for Attention<'_> {
                 let part = |which: usize| row[which * width + head * size..][..size].iter();
                 let query = queries[i * size..].iter_mut();
                 query.zip(part(0)).for_each(|(y, x)| *y = x * scale);
-                let key = keys[i..].iter_mut().step_by(padded(rows));
+                let key = keys[i / PANEL * PANEL * size + i % PANEL..].iter_mut();
+                let key = key.step_by(PANEL);
                 key.zip(part(1)).for_each(|(y, x)| *y = *x);
-                let value = values[i * padded(size)..].iter_mut();
-                value.zip(part(2)).for_each(|(y, x)| *y = *x);
+                for (k, x) in part(2).enumerate() {
+                    values[(k / PANEL * rows + i) * PANEL + k % PANEL] = *x;
+                }
             }
-            let keys = Rows {
-                values: &keys,
-                stride: padded(rows),
-            };
-            let values = Rows {
-                values: &values,
-                stride: padded(size),
-            };
             for first in (0..rows).step_by(most) {
                 let count = most.min(rows - first);
                 let scores = &mut scores[..count * rows];
@@ -218,7 +210,7 @@ impl CustomOp1 for Attention<'_> {
                     values: &queries[first * size..],
                     stride: size,
                 };
-                product(queries, keys, size, (scores, rows), rows);
+                product(queries, &keys, size, (scores, rows), rows);
                 let classes = &self.classes[first * rows..];
                 for (row, classes) in scores.chunks_exact_mut(rows).zip(classes.chunks(rows)) {
                     soften(row, classes, log_weights);
@@ -229,7 +221,7 @@ impl CustomOp1 for Attention<'_> {
                 };
                 let end = (first + count - 1) * width + (head + 1) * size;
                 let to = &mut y[first * width + head * size..end];
-                product(scores, values, rows, (to, width), size);
+                product(scores, &values, rows, (to, width), size);
             }
         }
         Ok((CpuStorage::F32(y), (rows, width).into()))
@@ -238,15 +230,22 @@ impl CustomOp1 for Attention<'_> {
 
 /// Softmax of scores and the log-weights of their classes.
 fn soften(row: &mut [f32], classes: &[u16], log_weights: &[f32]) {
-    let mut largest = f32::NEG_INFINITY;
-    for (x, &class) in row.iter_mut().zip(classes) {
-        *x += log_weights[usize::from(class)];
-        largest = largest.max(*x);
+    // Largest and sums are kept for every eighth, so that they do not wait for each other.
+    let mut largest = [f32::NEG_INFINITY; 8];
+    for (row, classes) in row.chunks_mut(8).zip(classes.chunks(8)) {
+        for ((x, &class), largest) in row.iter_mut().zip(classes).zip(&mut largest) {
+            *x += log_weights[usize::from(class)];
+            *largest = if *x > *largest { *x } else { *largest };
+        }
     }
-    let mut sum = 0.0;
-    for x in row.iter_mut() {
-        *x = (*x - largest).exp();
-        sum += *x;
+    let largest = largest.into_iter().fold(f32::NEG_INFINITY, f32::max);
+    let mut sums = [0.0; 8];
+    for row in row.chunks_mut(8) {
+        for (x, sum) in row.iter_mut().zip(&mut sums) {
+            *x = (*x - largest).exp();
+            *sum += *x;
+        }
     }
-    row.iter_mut().for_each(|x| *x /= sum);
+    let share = sums.iter().sum::<f32>().recip();
+    row.iter_mut().for_each(|x| *x *= share);
 }

@@ -8,12 +8,12 @@ use pulp::{Arch, Simd, WithSimd};
 /// Rows of a tile, whose sums are kept in registers.
 const ROWS: usize = 6;
 
-/// Columns of right factors are filled up to a multiple of this, which tiles of any processor divide.
-const COLUMNS: usize = 32;
+/// Columns of a panel, which tiles of any processor divide.
+pub(super) const PANEL: usize = 32;
 
-/// Least width of a right factor's rows with that many columns.
+/// Least multiple of [`PANEL`] that holds so many columns.
 pub(super) const fn padded(columns: usize) -> usize {
-    columns.next_multiple_of(COLUMNS)
+    columns.next_multiple_of(PANEL)
 }
 
 /// Rows of numbers that follow each other at a distance.
@@ -29,14 +29,15 @@ impl<'a> Rows<'a> {
     }
 }
 
-/// Writes the product of `left` and `right` to rows of `columns` numbers at a distance of `stride`.
-/// The rows of `right` are [`padded`], and there are `depth` of them.
+/// Writes the product of `left` and `right` to rows of `columns` numbers at a distance: `to` are the
+/// numbers and the distance. `right` comes in panels of [`PANEL`] columns, the last one filled up, and
+/// has `depth` rows.
 ///
 /// # Panics
 /// If there are fewer numbers.
 pub(super) fn product(
     left: Rows<'_>,
-    right: Rows<'_>,
+    right: &[f32],
     depth: usize,
     to: (&mut [f32], usize),
     columns: usize,
@@ -44,10 +45,7 @@ pub(super) fn product(
     let (to, stride) = to;
     Arch::new().dispatch(Product {
         left,
-        right: Rows {
-            values: &right.values[..depth * right.stride],
-            ..right
-        },
+        right,
         depth,
         to,
         stride,
@@ -57,7 +55,7 @@ pub(super) fn product(
 
 struct Product<'a> {
     left: Rows<'a>,
-    right: Rows<'a>,
+    right: &'a [f32],
     depth: usize,
     to: &'a mut [f32],
     stride: usize,
@@ -80,14 +78,15 @@ impl WithSimd for Product<'_> {
                 places.zip(row).for_each(|(place, x)| *place = *x);
             }
             for column in (0..self.columns).step_by(width) {
-                let sums = tile(simd, &left, self.right, column);
+                let panel = &self.right[column / PANEL * PANEL * self.depth..];
+                let sums = tile(simd, &left, panel, column % PANEL);
                 let within = width.min(self.columns - column);
                 for (r, sums) in sums.iter().enumerate().take(count) {
                     let to = &mut self.to[(first + r) * self.stride + column..][..within];
                     if within == width {
                         S::as_mut_simd_f32s(to).0.copy_from_slice(sums);
                     } else {
-                        let mut whole = [0.0; COLUMNS];
+                        let mut whole = [0.0; PANEL];
                         S::as_mut_simd_f32s(&mut whole[..width])
                             .0
                             .copy_from_slice(sums);
@@ -99,15 +98,13 @@ impl WithSimd for Product<'_> {
     }
 }
 
-/// Sums of a tile: `left` holds its rows' numbers column by column.
+/// Sums of a tile: `left` holds its rows' numbers column by column, and its columns are those of a
+/// panel from `column`.
 #[inline(always)]
-fn tile<S: Simd>(simd: S, left: &[f32], right: Rows<'_>, column: usize) -> [[S::f32s; 2]; ROWS] {
+fn tile<S: Simd>(simd: S, left: &[f32], panel: &[f32], column: usize) -> [[S::f32s; 2]; ROWS] {
     let width = 2 * S::F32_LANES;
     let mut sums = [[simd.splat_f32s(0.0); 2]; ROWS];
-    for (left, right) in left
-        .chunks_exact(ROWS)
-        .zip(right.values.chunks_exact(right.stride))
-    {
+    for (left, right) in left.chunks_exact(ROWS).zip(panel.chunks_exact(PANEL)) {
         let (right, _) = S::as_simd_f32s(&right[column..column + width]);
         let (a, b) = (right[0], right[1]);
         for (sums, x) in sums.iter_mut().zip(left) {
@@ -127,26 +124,19 @@ mod tests {
     fn products_of_all_shapes_are_those_by_definition() {
         let value = |i: usize| ((i * 37 + 11) % 17) as f32 - 8.0;
         for (rows, depth, columns) in [(1, 1, 1), (5, 7, 31), (6, 3, 32), (13, 40, 70), (2, 9, 0)] {
-            let (from, width, to) = (depth + 2, padded(columns), columns + 3);
+            let (from, to) = (depth + 2, columns + 3);
             let left: Vec<f32> = (0..rows * from).map(value).collect();
-            let right: Vec<f32> = (0..depth * width).map(value).collect();
+            let right: Vec<f32> = (0..depth * padded(columns)).map(value).collect();
             let mut found = vec![-1.0; rows * to];
-            product(
-                Rows {
-                    values: &left,
-                    stride: from,
-                },
-                Rows {
-                    values: &right,
-                    stride: width,
-                },
-                depth,
-                (&mut found, to),
-                columns,
-            );
+            let left_rows = Rows {
+                values: &left,
+                stride: from,
+            };
+            product(left_rows, &right, depth, (&mut found, to), columns);
+            let right = |k: usize, j: usize| right[(j / PANEL * depth + k) * PANEL + j % PANEL];
             for i in 0..rows {
                 for j in 0..to {
-                    let sum = (0..depth).map(|k| left[i * from + k] * right[k * width + j]);
+                    let sum = (0..depth).map(|k| left[i * from + k] * right(k, j));
                     let expected = if j < columns { sum.sum() } else { -1.0 };
                     assert_eq!(
                         found[i * to + j],
