@@ -1,9 +1,11 @@
 //! Ways to join a part to those that are placed.
 
+use std::cell::OnceCell;
 use std::collections::BTreeSet;
 
 use super::alike::{Twin, alike};
 use super::body::{Bodies, Place};
+use super::layout::Parallel;
 use super::links::{Link, LinkKind};
 use super::score::{COUNT, Feature, JoinScorer, Row};
 use super::shapes::Shapes;
@@ -88,6 +90,8 @@ pub(super) struct Joiner<'a> {
     pub(super) alike: Vec<Vec<Twin>>,
     bodies: Bodies,
     rays: Rays,
+    /// For each loop the planes that are parallel to its own, found when they are asked for.
+    pub(super) parallels: Vec<OnceCell<Vec<Parallel>>>,
     /// Pairs of loops, outer and inner, that have a link.
     pub(super) joined: BTreeSet<(usize, usize)>,
 }
@@ -102,6 +106,7 @@ impl<'a> Joiner<'a> {
             alike: alike(shapes),
             bodies: Bodies::new(shapes),
             rays: Rays::new(shapes),
+            parallels: shapes.loops.iter().map(|_| OnceCell::new()).collect(),
             joined: links.iter().map(|l| (l.outer, l.inner)).collect(),
         }
     }

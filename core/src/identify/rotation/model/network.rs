@@ -11,7 +11,7 @@ use candle_core::{Device, Result, Tensor};
 use candle_nn::VarBuilder;
 use serde::{Deserialize, Serialize};
 
-use super::ops::{Attention, LayerNorm, Linear};
+use super::ops::{Attention, LayerNorm, Linear, Sum};
 use crate::drawing::SurfaceKind;
 use crate::identify::rotation::inputs::{CORNER, EDGE, Inputs, RELATIONS, TRIPLE};
 use crate::identify::rotation::shards::FORMAT;
@@ -131,9 +131,9 @@ impl Layer {
     fn forward(&self, x: &Tensor, attention: &Attention<'_>) -> Result<Tensor> {
         let qkv = self.qkv.forward(&self.attention_norm.forward(x)?)?;
         let mixed = qkv.apply_op1_no_bwd(attention)?;
-        let x = (x + self.out.forward(&mixed)?)?;
+        let x = x.apply_op2_no_bwd(&self.out.forward(&mixed)?, &Sum)?;
         let hidden = self.up.forward_relu(&self.hidden_norm.forward(&x)?)?;
-        &x + self.down.forward(&hidden)?
+        x.apply_op2_no_bwd(&self.down.forward(&hidden)?, &Sum)
     }
 }
 

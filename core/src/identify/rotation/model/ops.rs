@@ -1,7 +1,9 @@
 //! The network's larger operations for candle, each on the calling thread: candle's own norms hand
 //! single rows to other threads, and see [`product`](super::product) for its products.
 
-use candle_core::{CpuStorage, CustomOp1, CustomOp3, Layout, Result, Shape, Tensor, bail};
+use candle_core::{
+    CpuStorage, CustomOp1, CustomOp2, CustomOp3, Layout, Result, Shape, Tensor, bail,
+};
 use candle_nn::VarBuilder;
 
 use super::product::{PANEL, Rows, padded, product};
@@ -119,6 +121,31 @@ impl CustomOp3 for Affine {
             }
         }
         Ok((CpuStorage::F32(y), (rows, out).into()))
+    }
+}
+
+/// Adds tensors of one shape.
+pub(super) struct Sum;
+
+impl CustomOp2 for Sum {
+    fn name(&self) -> &'static str {
+        "sum"
+    }
+
+    fn cpu_fwd(
+        &self,
+        a: &CpuStorage,
+        a_layout: &Layout,
+        b: &CpuStorage,
+        b_layout: &Layout,
+    ) -> Result<(CpuStorage, Shape)> {
+        let shape = a_layout.shape();
+        if shape != b_layout.shape() {
+            bail!("{shape:?} and {:?}", b_layout.shape());
+        }
+        let pairs = floats(a, a_layout)?.iter().zip(floats(b, b_layout)?);
+        let sums = pairs.map(|(a, b)| a + b).collect();
+        Ok((CpuStorage::F32(sums), shape.clone()))
     }
 }
 
