@@ -46,13 +46,19 @@ struct Point {
     around: Vec<(usize, Levels)>,
 }
 
+/// A part drawn beside another.
+#[derive(Debug)]
+struct Neighbour {
+    part: usize,
+    /// Depths of its points within the other's box, and the levels of the other there.
+    points: OnceCell<Vec<(f64, Levels)>>,
+}
+
 /// What is drawn around the points of a part, wherever parts stand.
 #[derive(Debug)]
 struct Surroundings {
     points: Vec<Point>,
-    /// Parts drawn beside this one, with the depths of their points within its box and the levels of
-    /// this part there.
-    beside: Vec<(usize, OnceCell<Vec<(f64, Levels)>>)>,
+    beside: Vec<Neighbour>,
 }
 
 /// Points of all parts, looked at when they are asked for.
@@ -82,11 +88,12 @@ impl Bodies {
             }
         }
         let (mut seen, mut within) = (0usize, 0usize);
-        'all: for (other, points) in &own.beside {
-            let Some(place) = placed[*other] else {
+        'all: for other in &own.beside {
+            let Some(place) = placed[other.part] else {
                 continue;
             };
-            for (depth, levels) in points.get_or_init(|| beside(shapes, part, *other)) {
+            let points = || beside(shapes, part, other.part);
+            for (depth, levels) in other.points.get_or_init(points) {
                 seen += 1;
                 let depth = depth + (place.shift - shift);
                 within += usize::from(is_between(levels, depth) == Some(true));
@@ -120,7 +127,10 @@ fn surroundings(shapes: &Shapes, part: usize) -> Surroundings {
         points: samples.iter().step_by(step).map(point).collect(),
         beside: others()
             .filter(is_beside)
-            .map(|p| (p, OnceCell::new()))
+            .map(|part| Neighbour {
+                part,
+                points: OnceCell::new(),
+            })
             .collect(),
     }
 }
