@@ -23,6 +23,21 @@ impl Sets {
         self.0[a.max(b)] = a.min(b);
         a != b
     }
+
+    /// The sets, each sorted, by their least numbers.
+    pub(crate) fn groups(&mut self) -> Vec<Vec<usize>> {
+        let mut groups: Vec<Vec<usize>> = Vec::new();
+        let mut place = vec![0; self.0.len()];
+        for x in 0..self.0.len() {
+            let least = self.find(x);
+            if least == x {
+                place[x] = groups.len();
+                groups.push(Vec::new());
+            }
+            groups[place[least]].push(x);
+        }
+        groups
+    }
 }
 
 #[cfg(test)]
@@ -36,5 +51,6 @@ mod tests {
         assert!(!sets.join(5, 2));
         let roots: Vec<usize> = (0..6).map(|x| sets.find(x)).collect();
         assert_eq!(roots, [0, 0, 2, 3, 2, 2]);
+        assert_eq!(sets.groups(), [vec![0, 1], vec![2, 4, 5], vec![3]]);
     }
 }

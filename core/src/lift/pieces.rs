@@ -46,6 +46,14 @@ impl<'a> Readings<'a> {
     pub(crate) fn straight(&self) -> Option<&Drawing> {
         self.straight.first().map(|s| &s.drawing)
     }
+
+    /// The likeliest directions of the drawing or, if it is by hand, of what it is made straight to.
+    pub(crate) fn directions(&self) -> Option<Cow<'_, Directions>> {
+        match self.straight() {
+            Some(drawing) => Directions::estimate(drawing).ok().map(Cow::Owned),
+            None => self.exact.first().map(Cow::Borrowed),
+        }
+    }
 }
 
 /// A lifted drawing whose parts may still move in depth against each other.

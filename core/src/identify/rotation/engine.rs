@@ -71,12 +71,15 @@ impl Engine for RotationEngine {
 impl RotationEngine {
     /// The faces of a drawing, none of whose vertices is refused.
     fn found(&self, drawing: &Drawing, progress: Progress<'_>) -> Result<Identification> {
-        let directions = Readings::new(drawing);
-        let drawing = directions.straight().unwrap_or(drawing);
+        let lifts = Readings::new(drawing);
+        let directions = lifts.directions();
+        let drawing = lifts.straight().unwrap_or(drawing);
         let graph = Graph::new(drawing);
         progress.report(Stage::Identify, 0.0)?;
         let triples = Triples::new(&graph);
-        let scores = self.scorer.score(drawing, &graph, &triples, progress)?;
+        let scores =
+            self.scorer
+                .score(drawing, &graph, &triples, directions.as_deref(), progress)?;
         let mut notices = self.notices.clone();
         notices.extend(scores.notices);
         progress.report(Stage::Identify, 0.3)?;
@@ -85,10 +88,10 @@ impl RotationEngine {
         progress.report(Stage::Identify, 0.6)?;
         let doubts = Doubts::new(&field, &system);
         let readings = variants(&field, system, &doubts);
-        let frame = (readings.len() > 1).then(|| Frame::new(drawing));
+        let frame = (readings.len() > 1).then(|| Frame::new(drawing, directions.as_deref()));
         let reader = Reader {
             drawing,
-            readings: &directions,
+            readings: &lifts,
             field: &field,
             kinds: scores.kinds.as_deref(),
             frame: frame.as_ref(),

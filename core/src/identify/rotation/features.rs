@@ -9,6 +9,7 @@ use super::ends::{End, ends};
 use super::frame::{Agreement, Frame};
 use super::rings::Rings;
 use crate::drawing::{CoEdge, Drawing, Graph};
+use crate::lift::directions::Directions;
 
 macro_rules! features {
     ($($name:ident: $text:literal,)*) => {
@@ -78,10 +79,15 @@ features! {
 /// A row of features.
 pub type Row = [f64; COUNT];
 
-/// Computes the features of every triple.
-pub fn features(drawing: &Drawing, graph: &Graph, triples: &Triples) -> Vec<Row> {
+/// Computes the features of every triple of a drawing with these dominant directions, if it has any.
+pub fn features(
+    drawing: &Drawing,
+    graph: &Graph,
+    triples: &Triples,
+    directions: Option<&Directions>,
+) -> Vec<Row> {
     let cycles = shortest_cycles(graph, triples);
-    Context::new(drawing, graph).rows(triples, &cycles)
+    Context::new(drawing, graph, directions).rows(triples, &cycles)
 }
 
 /// A row under construction.
@@ -134,7 +140,11 @@ pub(super) struct Context<'a> {
 
 impl<'a> Context<'a> {
     /// Looks at a drawing.
-    pub(super) fn new(drawing: &'a Drawing, graph: &'a Graph) -> Self {
+    pub(super) fn new(
+        drawing: &'a Drawing,
+        graph: &'a Graph,
+        directions: Option<&Directions>,
+    ) -> Self {
         let size = drawing.size().max(f64::MIN_POSITIVE);
         let ends = ends(drawing);
         let rings = Rings::new(drawing, graph);
@@ -142,7 +152,7 @@ impl<'a> Context<'a> {
             drawing,
             graph,
             crossings: Crossings::new(graph, &ends, &rings, size),
-            frame: Frame::new(drawing),
+            frame: Frame::new(drawing, directions),
             ends,
             rings,
             size,

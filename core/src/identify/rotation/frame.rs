@@ -34,10 +34,10 @@ pub(super) enum Agreement {
 }
 
 impl Frame {
-    /// Assigns the edges of a drawing; none if the drawing has no dominant directions.
-    pub(super) fn new(drawing: &Drawing) -> Self {
+    /// Assigns the edges of a drawing with these dominant directions, none without them.
+    pub(super) fn new(drawing: &Drawing, directions: Option<&Directions>) -> Self {
         let mut fits = vec![None; drawing.edges.len()];
-        if let Ok(directions) = Directions::estimate(drawing) {
+        if let Some(directions) = directions {
             let all: u8 = if directions.is_frame() { 0b111 } else { 0 };
             for (k, axis) in directions.axes.iter().enumerate() {
                 let own = 1u8 << k;

@@ -3,6 +3,7 @@
 use super::features::{COUNT, Feature, Row, features};
 use super::{Scores, TripleScorer, Triples};
 use crate::drawing::{Drawing, Graph};
+use crate::lift::directions::Directions;
 use crate::{Progress, Result};
 
 /// Scores triples by hand-made features in a weighted sum.
@@ -28,9 +29,12 @@ impl TripleScorer for HandScorer {
         drawing: &Drawing,
         graph: &Graph,
         triples: &Triples,
+        directions: Option<&Directions>,
         _: Progress<'_>,
     ) -> Result<Scores> {
-        Ok(self.sums(&features(drawing, graph, triples)).into())
+        Ok(self
+            .sums(&features(drawing, graph, triples, directions))
+            .into())
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::Triples;
 use crate::drawing::{CoEdge, Drawing, Graph, SurfaceKind};
+use crate::lift::directions::Directions;
 use crate::{Progress, Result};
 
 /// Says how likely every triple is to be part of a face.
@@ -9,7 +10,7 @@ use crate::{Progress, Result};
 /// Hand-made rules and trained models stand behind this one interface; decoding sees nothing but
 /// the numbers.
 pub trait TripleScorer: Send + Sync {
-    /// Scores every triple.
+    /// Scores every triple of a drawing with these dominant directions, if it has any.
     ///
     /// # Errors
     /// The scorer's own reasons, for instance a drawing beyond a model's limits;
@@ -19,6 +20,7 @@ pub trait TripleScorer: Send + Sync {
         drawing: &Drawing,
         graph: &Graph,
         triples: &Triples,
+        directions: Option<&Directions>,
         progress: Progress<'_>,
     ) -> Result<Scores>;
 }

@@ -130,13 +130,20 @@ mod tests {
     use crate::drawing::Drawing;
     use crate::identify::rotation::samples;
     use crate::identify::rotation::{HandScorer, TripleScorer, Triples};
+    use crate::lift::directions::Directions;
 
     /// Calls `look` with the readings of a drawing.
     fn read(drawing: &Drawing, look: impl Fn(&Graph, Vec<Variant>)) {
         let graph = Graph::new(drawing);
         let triples = Triples::new(&graph);
         let scores = HandScorer::default()
-            .score(drawing, &graph, &triples, Progress::none())
+            .score(
+                drawing,
+                &graph,
+                &triples,
+                Directions::estimate(drawing).ok().as_ref(),
+                Progress::none(),
+            )
             .unwrap();
         let field = Field::new(&graph, &triples, &scores.log_odds);
         let system = field.decode();

@@ -4,7 +4,7 @@ use glam::{DMat3, DQuat, DVec2, DVec3};
 
 use super::evidence::{AGREE, Evidence};
 use super::hypotheses::Hypothesis;
-use super::model_frame::USUAL;
+use super::model_frame::{USUAL, Usual};
 
 /// Errors, radians, up to which slanted directions are told apart by chance seldom enough.
 const SHARP: f64 = 1e-3;
@@ -26,10 +26,11 @@ impl Followers {
     /// The evidence that agrees with a frame within its error. What two axes would explain follows
     /// neither; slanted directions are asked only where no axis explains a cluster.
     pub(super) fn new(evidence: &Evidence, h: &Hypothesis) -> Self {
+        let drawn = |usual: &Usual| DrawnAxis::new(h.frame * usual.direction, h.error);
+        let usual: Vec<DrawnAxis> = USUAL.iter().map(drawn).collect();
         let clusters = evidence.clusters.iter().map(|c| {
             let error = c.error(evidence.precision);
-            let along =
-                |i: &usize| is_along(c.direction, h.frame * USUAL[*i].direction, error, h.error);
+            let along = |i: &usize| usual[*i].is_along(c.direction, error);
             match only((0..3).filter(along)) {
                 Found::None if error + h.error < SHARP => {
                     only((3..USUAL.len()).filter(along)).one()
@@ -78,12 +79,30 @@ fn only(mut all: impl Iterator<Item = usize>) -> Found {
     }
 }
 
-/// Whether `drawn` is the direction of `axis`' drawing.
-fn is_along(drawn: DVec2, axis: DVec3, drawn_error: f64, axis_error: f64) -> bool {
-    let along = axis.truncate();
-    let length = along.length();
-    let error = drawn_error + axis_error / length.max(1e-9);
-    length > 1e-6 && (drawn.perp_dot(along) / length).abs() < AGREE * error.min(0.05)
+/// An axis as it is drawn.
+struct DrawnAxis {
+    along: DVec2,
+    length: f64,
+    /// Error of its drawn direction, radians.
+    error: f64,
+}
+
+impl DrawnAxis {
+    fn new(axis: DVec3, error: f64) -> Self {
+        let along = axis.truncate();
+        let length = along.length();
+        Self {
+            along,
+            length,
+            error: error / length.max(1e-9),
+        }
+    }
+
+    /// Whether `drawn` is its direction within the errors of both.
+    fn is_along(&self, drawn: DVec2, error: f64) -> bool {
+        let error = (error + self.error).min(0.05);
+        self.length > 1e-6 && (drawn.perp_dot(self.along) / self.length).abs() < AGREE * error
+    }
 }
 
 /// Gauss-Newton on SO(3): the rotation that its followers agree with best, with its standard error.

@@ -6,6 +6,7 @@ use faer::sparse::{Argsort, Pair, SparseColMat, SymbolicSparseColMat};
 use faer::{Mat, Side};
 
 use super::{LiftError, NullSpace, Row, System};
+use crate::sets::Sets;
 
 /// Added to the diagonal of the scaled normal matrix, whose diagonal is 1. A direction in which the
 /// rows say less than this (a singular value below 3e-6 of the largest) counts as left open: data
@@ -104,7 +105,19 @@ pub(super) fn null_space<T>(system: &System<T>, active: &[bool]) -> Result<NullS
         }
     };
     let pattern = Pattern::new(system, active)?;
-    Ok(Factor::new(system, active, &pattern, system.open, unit)?.null_space())
+    let factor = Factor::new(system, active, &pattern, system.open, unit)?;
+    Ok(factor.null_space(&groups(system, active)))
+}
+
+/// Unknowns that rows tie to each other, each group sorted.
+fn groups<T>(system: &System<T>, active: &[bool]) -> Vec<Vec<usize>> {
+    let mut sets = Sets::new(system.unknowns());
+    for row in used(system, active) {
+        for pair in row.terms.windows(2) {
+            sets.join(pair[0].0, pair[1].0);
+        }
+    }
+    sets.groups()
 }
 
 fn used<'a, T>(system: &'a System<T>, active: &'a [bool]) -> impl Iterator<Item = &'a Row<T>> {
@@ -162,22 +175,26 @@ impl Factor {
         Ok(Self { llt, scale, eps })
     }
 
-    /// Inverse iteration on a block of pseudo-random vectors: what survives is null space.
-    fn null_space(&self) -> NullSpace {
+    /// Inverse iteration on a block of pseudo-random vectors: what survives is null space. Groups of
+    /// unknowns that share no row have null spaces of their own, which one block shows.
+    fn null_space(&self, groups: &[Vec<usize>]) -> NullSpace {
         let n = self.scale.len();
         let mut width = BLOCK.min(n);
-        loop {
+        let mut bases = vec![Vec::new(); groups.len()];
+        let mut open: Vec<usize> = (0..groups.len()).collect();
+        while !open.is_empty() {
             let mut block = Mat::from_fn(n, width, noise);
             for _ in 0..INVERSE_STEPS {
                 block = self.llt.solve(&block);
                 block *= faer::Scale(self.eps);
             }
-            let basis = independent_columns(&block);
-            if basis.len() < width || width == n {
-                return NullSpace::new(&basis, &self.scale);
-            }
+            open.retain(|&g| {
+                bases[g] = independent_columns(&block, &groups[g]);
+                bases[g].len() == width && width < groups[g].len()
+            });
             width = (2 * width).min(n);
         }
+        NullSpace::new(groups, &bases, &self.scale)
     }
 }
 
@@ -191,16 +208,12 @@ fn noise(row: usize, column: usize) -> f64 {
     (h >> 11) as f64 / (1u64 << 52) as f64 - 1.0
 }
 
-/// Orthonormal basis of the columns, by Gram-Schmidt with pivoting, twice for accuracy.
-fn independent_columns(block: &Mat<f64>) -> Vec<Vec<f64>> {
-    let mut left: Vec<Vec<f64>> = (0..block.ncols())
-        .map(|k| (0..block.nrows()).map(|i| block[(i, k)]).collect())
-        .collect();
+/// Orthonormal basis of the columns in some of their rows, by Gram-Schmidt with pivoting, twice for
+/// accuracy.
+fn independent_columns(block: &Mat<f64>, rows: &[usize]) -> Vec<Vec<f64>> {
+    let mut left = Columns::new(block, rows);
     let mut basis: Vec<Vec<f64>> = Vec::new();
-    while let Some(at) =
-        (0..left.len()).max_by(|&a, &b| dot(&left[a], &left[a]).total_cmp(&dot(&left[b], &left[b])))
-    {
-        let mut v = left.swap_remove(at);
+    while let Some(mut v) = left.take_longest() {
         for b in &basis {
             remove(&mut v, b);
         }
@@ -209,12 +222,67 @@ fn independent_columns(block: &Mat<f64>) -> Vec<Vec<f64>> {
             break;
         }
         v.iter_mut().for_each(|c| *c /= length);
-        for other in &mut left {
-            remove(other, &v);
-        }
+        left.remove(&v);
         basis.push(v);
     }
     basis
+}
+
+/// Columns side by side, so that what is done to all of them is done at once.
+struct Columns {
+    values: Vec<f64>,
+    stride: usize,
+    /// Squared length of each column that is left.
+    squares: Vec<f64>,
+}
+
+impl Columns {
+    fn new(block: &Mat<f64>, rows: &[usize]) -> Self {
+        let stride = block.ncols();
+        let places = rows.iter().flat_map(|&i| (0..stride).map(move |k| (i, k)));
+        let mut columns = Self {
+            values: places.map(|place| block[place]).collect(),
+            stride,
+            squares: vec![0.0; stride],
+        };
+        for row in columns.values.chunks_exact(stride) {
+            let squares = columns.squares.iter_mut().zip(row);
+            squares.for_each(|(sum, x)| *sum += x * x);
+        }
+        columns
+    }
+
+    /// Takes the longest column out; `None` if there is none.
+    fn take_longest(&mut self) -> Option<Vec<f64>> {
+        let squares = self.squares.iter().enumerate();
+        let (longest, _) = squares.max_by(|a, b| a.1.total_cmp(b.1))?;
+        self.squares.swap_remove(longest);
+        let last = self.squares.len();
+        let rows = self.values.chunks_exact_mut(self.stride);
+        let take = |row: &mut [f64]| {
+            row.swap(longest, last);
+            row[last]
+        };
+        Some(rows.map(take).collect())
+    }
+
+    /// Takes what is along a unit vector out of all.
+    fn remove(&mut self, unit: &[f64]) {
+        let count = self.squares.len();
+        let mut shares = vec![0.0; count];
+        for (row, u) in self.values.chunks_exact(self.stride).zip(unit) {
+            let sums = shares.iter_mut().zip(&row[..count]);
+            sums.for_each(|(sum, x)| *sum += x * u);
+        }
+        self.squares.fill(0.0);
+        for (row, u) in self.values.chunks_exact_mut(self.stride).zip(unit) {
+            let columns = row[..count].iter_mut().zip(&shares);
+            for ((x, share), square) in columns.zip(&mut self.squares) {
+                *x -= share * u;
+                *square += *x * *x;
+            }
+        }
+    }
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {

@@ -1,9 +1,11 @@
 //! Ways to join a part to those that are placed.
 
+use std::cell::OnceCell;
 use std::collections::BTreeSet;
 
 use super::alike::{Twin, alike};
-use super::body::{Place, fit};
+use super::body::{Bodies, Place};
+use super::layout::Parallel;
 use super::links::{Link, LinkKind};
 use super::score::{COUNT, Feature, JoinScorer, Row};
 use super::shapes::Shapes;
@@ -86,7 +88,10 @@ pub(super) struct Joiner<'a> {
     pub(super) main: usize,
     /// For each part those that look like it.
     pub(super) alike: Vec<Vec<Twin>>,
-    pub(super) rays: Rays,
+    bodies: Bodies,
+    rays: Rays,
+    /// For each loop the planes that are parallel to its own, found when they are asked for.
+    pub(super) parallels: Vec<OnceCell<Vec<Parallel>>>,
     /// Pairs of loops, outer and inner, that have a link.
     pub(super) joined: BTreeSet<(usize, usize)>,
 }
@@ -99,7 +104,9 @@ impl<'a> Joiner<'a> {
             scorer,
             main: shapes.main_part().unwrap_or(0),
             alike: alike(shapes),
+            bodies: Bodies::new(shapes),
             rays: Rays::new(shapes),
+            parallels: shapes.loops.iter().map(|_| OnceCell::new()).collect(),
             joined: links.iter().map(|l| (l.outer, l.inner)).collect(),
         }
     }
@@ -262,7 +269,9 @@ impl Joiner<'_> {
             && !self.shapes.parts[part].is_circle
         {
             let boss = self.is_boss(part, place, link, state);
-            let fit = fit(self.shapes, part, place.shift, &state.placed);
+            let fit = self
+                .bodies
+                .fit(self.shapes, part, place.shift, &state.placed);
             let (right, wrong) = if boss {
                 (fit.outside, fit.inside)
             } else {

@@ -5,6 +5,18 @@ use glam::DVec2;
 use super::body::Place;
 use super::joins::{Joiner, State};
 use super::links::{Link, LinkKind};
+use super::shapes::Outline;
+
+/// A plane of another part that is parallel to a loop's.
+pub(super) struct Parallel {
+    part: usize,
+    /// Level of the loop's own plane in the middle of the loop, in its part.
+    own: f64,
+    /// Level of this one there, in its part.
+    level: f64,
+    /// Difference of level up to which they are one.
+    slack: f64,
+}
 
 /// How fast thin walls become likelier as they grow, for a share of the face's extent.
 const WALLS: f64 = 20.0;
@@ -170,22 +182,38 @@ impl Joiner<'_> {
                 continue;
             }
             count += 1;
-            let at = (loops[i].low + loops[i].high) / 2.0;
-            hits += usize::from(loops.iter().any(|b| {
-                b.part != part
-                    && state.placed[b.part].is_some_and(|base| {
-                        self.shapes.parallel(&loops[i], b).is_some_and(|(p, q)| {
-                            (p.level(at) + place.shift - q.level(at) - base.shift).abs()
-                                < self.shapes.slack(b.depth_error(self.shapes.error))
-                        })
-                    })
-            }));
+            let same = |other: &Parallel| {
+                state.placed[other.part].is_some_and(|base| {
+                    (other.own + place.shift - other.level - base.shift).abs() < other.slack
+                })
+            };
+            let others = self.parallels[i].get_or_init(|| self.parallels_of(i));
+            hits += usize::from(others.iter().any(same));
         }
         if count == 0 {
             0.0
         } else {
             hits as f64 / count as f64
         }
+    }
+}
+
+impl Joiner<'_> {
+    /// The planes of other parts that are parallel to a loop's.
+    fn parallels_of(&self, outline: usize) -> Vec<Parallel> {
+        let own = &self.shapes.loops[outline];
+        let at = (own.low + own.high) / 2.0;
+        let others = self.shapes.loops.iter().filter(|b| b.part != own.part);
+        let parallel = |b: &Outline| {
+            let (p, q) = self.shapes.parallel(own, b)?;
+            Some(Parallel {
+                part: b.part,
+                own: p.level(at),
+                level: q.level(at),
+                slack: self.shapes.slack(b.depth_error(self.shapes.error)),
+            })
+        };
+        others.filter_map(parallel).collect()
     }
 }
 

@@ -238,15 +238,18 @@ impl<'a> Search<'a> {
             let part = &self.joiner.shapes.parts[p];
             (part.high - part.low).length()
         };
-        let mut cache: Vec<Option<Vec<Join>>> = vec![None; self.own.len()];
+        // Joins of each part, with the number of steps before them.
+        let mut cache: Vec<Option<(usize, Vec<Join>)>> = vec![None; self.own.len()];
         loop {
             let mut best: Option<(f64, usize)> = None;
             for (part, cached) in cache.iter_mut().enumerate() {
                 if state.placed[part].is_some() {
                     continue;
                 }
-                let joins =
-                    cached.get_or_insert_with(|| self.joiner.joins(part, &self.own[part], &state));
+                let (_, joins) = cached.get_or_insert_with(|| {
+                    let joins = self.joiner.joins(part, &self.own[part], &state);
+                    (steps.len(), joins)
+                });
                 let Some(first) = joins.first() else { continue };
                 let second = joins.get(1).map_or(f64::NEG_INFINITY, |j| j.score);
                 let mut lead = first.score - second.max(UNSEEN);
@@ -263,7 +266,10 @@ impl<'a> Search<'a> {
                 }
             }
             let Some((_, part)) = best else { break };
-            let mut joins = self.joiner.joins(part, &self.own[part], &state);
+            let mut joins = match cache[part].take() {
+                Some((made, joins)) if made == steps.len() => joins,
+                _ => self.joiner.joins(part, &self.own[part], &state),
+            };
             joins.truncate(JOINS);
             if joins.is_empty() {
                 break;

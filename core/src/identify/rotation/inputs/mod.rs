@@ -25,6 +25,7 @@ use super::cycles::shortest_cycles;
 use super::features::Context;
 use super::hand::HandScorer;
 use crate::drawing::{CoEdge, Drawing, Graph};
+use crate::lift::directions::Directions;
 
 /// The tables of one drawing with E edges, C corners and T triples.
 ///
@@ -54,7 +55,18 @@ pub struct Inputs {
 impl Inputs {
     /// Computes the tables in time `O(E^2 + C)` for bounded degrees.
     pub fn new(drawing: &Drawing, graph: &Graph, triples: &Triples) -> Self {
-        let context = Context::new(drawing, graph);
+        let directions = Directions::estimate(drawing).ok();
+        Self::with_directions(drawing, graph, triples, directions.as_ref())
+    }
+
+    /// The same for a drawing whose dominant directions are known, if it has any.
+    pub(super) fn with_directions(
+        drawing: &Drawing,
+        graph: &Graph,
+        triples: &Triples,
+        directions: Option<&Directions>,
+    ) -> Self {
+        let context = Context::new(drawing, graph, directions);
         let cycles = shortest_cycles(graph, triples);
         let rows = context.rows(triples, &cycles);
         let hand: Vec<f64> = HandScorer::default().sums(&rows);

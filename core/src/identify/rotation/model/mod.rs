@@ -5,6 +5,8 @@
 
 mod file;
 mod network;
+mod ops;
+mod product;
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -17,6 +19,7 @@ pub use network::{Config, Encoded, Network};
 use super::inputs::Inputs;
 use super::{HandScorer, LoopKinds, Scores, TripleScorer, Triples};
 use crate::drawing::{CoEdge, Drawing, Graph, SurfaceKind};
+use crate::lift::directions::Directions;
 use crate::{Progress, Stage};
 
 /// Most edges that the model is asked about: the attention's tables grow with their square.
@@ -98,10 +101,12 @@ impl TripleScorer for ModelScorer {
         drawing: &Drawing,
         graph: &Graph,
         triples: &Triples,
+        directions: Option<&Directions>,
         progress: Progress<'_>,
     ) -> crate::Result<Scores> {
         if graph.edge_count() > MAX_EDGES {
-            let mut scores = HandScorer::default().score(drawing, graph, triples, progress)?;
+            let mut scores =
+                HandScorer::default().score(drawing, graph, triples, directions, progress)?;
             scores.notices.push(format!(
                 "the drawing has {} edges, more than the {MAX_EDGES} that the model takes; the \
                  hand-made scores are used",
@@ -109,7 +114,7 @@ impl TripleScorer for ModelScorer {
             ));
             return Ok(scores);
         }
-        let inputs = Inputs::new(drawing, graph, triples);
+        let inputs = Inputs::with_directions(drawing, graph, triples, directions);
         progress.report(Stage::Identify, 0.1)?;
         // The tables fit each other and the network was checked, so candle cannot fail; if it does
         // all the same, the hand-made scores are as good as ever.

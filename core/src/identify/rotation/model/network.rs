@@ -7,16 +7,14 @@
 //! no order. `training/faceformer_training/rotation/model.py` is the same in PyTorch, and the names
 //! of weights are the same in both.
 
-use candle_core::{D, Device, Result, Tensor};
-use candle_nn::{LayerNorm, Linear, Module, VarBuilder, layer_norm, linear, linear_no_bias, ops};
+use candle_core::{Device, Result, Tensor};
+use candle_nn::VarBuilder;
 use serde::{Deserialize, Serialize};
 
+use super::ops::{Attention, LayerNorm, Linear, Sum};
 use crate::drawing::SurfaceKind;
 use crate::identify::rotation::inputs::{CORNER, EDGE, Inputs, RELATIONS, TRIPLE};
 use crate::identify::rotation::shards::FORMAT;
-
-/// Added to variances, as PyTorch does by default.
-const EPSILON: f64 = 1e-5;
 
 /// Size of the network.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -108,7 +106,6 @@ impl Config {
 /// Self-attention and two linear maps, each added to what comes in.
 #[derive(Debug, Clone)]
 struct Layer {
-    heads: usize,
     attention_norm: LayerNorm,
     qkv: Linear,
     out: Linear,
@@ -121,34 +118,22 @@ impl Layer {
     fn new(config: &Config, vb: &VarBuilder<'_>) -> Result<Self> {
         let w = config.width;
         Ok(Self {
-            heads: config.heads,
-            attention_norm: layer_norm(w, EPSILON, vb.pp("attention_norm"))?,
-            qkv: linear(w, 3 * w, vb.pp("qkv"))?,
-            out: linear(w, w, vb.pp("out"))?,
-            hidden_norm: layer_norm(w, EPSILON, vb.pp("hidden_norm"))?,
-            up: linear(w, config.hidden, vb.pp("up"))?,
-            down: linear(config.hidden, w, vb.pp("down"))?,
+            attention_norm: LayerNorm::new(w, &vb.pp("attention_norm"))?,
+            qkv: Linear::new(w, 3 * w, &vb.pp("qkv"))?,
+            out: Linear::new(w, w, &vb.pp("out"))?,
+            hidden_norm: LayerNorm::new(w, &vb.pp("hidden_norm"))?,
+            up: Linear::new(w, config.hidden, &vb.pp("up"))?,
+            down: Linear::new(config.hidden, w, &vb.pp("down"))?,
         })
     }
 
-    /// `x` is `[E, width]`, `bias` `[heads, E, E]`.
-    fn forward(&self, x: &Tensor, bias: &Tensor) -> Result<Tensor> {
-        let (edges, width) = x.dims2()?;
-        let size = width / self.heads;
+    /// `x` is `[E, width]`.
+    fn forward(&self, x: &Tensor, attention: &Attention<'_>) -> Result<Tensor> {
         let qkv = self.qkv.forward(&self.attention_norm.forward(x)?)?;
-        // [E, 3, heads, size] -> three of [heads, E, size].
-        let qkv = qkv
-            .reshape((edges, 3, self.heads, size))?
-            .permute((1, 2, 0, 3))?
-            .contiguous()?;
-        let (q, k, v) = (qkv.get(0)?, qkv.get(1)?, qkv.get(2)?);
-        let q = (q * (1.0 / (size as f64).sqrt()))?;
-        let weights = (q.matmul(&k.transpose(1, 2)?)? + bias)?;
-        let mixed = ops::softmax_last_dim(&weights)?.matmul(&v)?;
-        let mixed = mixed.transpose(0, 1)?.reshape((edges, width))?;
-        let x = (x + self.out.forward(&mixed)?)?;
-        let hidden = self.up.forward(&self.hidden_norm.forward(&x)?)?.relu()?;
-        &x + self.down.forward(&hidden)?
+        let mixed = qkv.apply_op1_no_bwd(attention)?;
+        let x = x.apply_op2_no_bwd(&self.out.forward(&mixed)?, &Sum)?;
+        let hidden = self.up.forward_relu(&self.hidden_norm.forward(&x)?)?;
+        x.apply_op2_no_bwd(&self.down.forward(&hidden)?, &Sum)
     }
 }
 
@@ -169,7 +154,7 @@ pub struct Network {
     product: Linear,
     triple: Linear,
     score: Linear,
-    hand: f64,
+    hand: f32,
     loop_: Linear,
     kind: Linear,
 }
@@ -179,10 +164,10 @@ pub struct Network {
 pub struct Encoded {
     /// Log-odds of the triples.
     pub scores: Vec<f32>,
-    /// Edges in their context, `[E][width]`.
-    edges: Vec<Vec<f32>>,
-    /// Triples, `[T][width]`.
-    states: Vec<Vec<f32>>,
+    /// Edges in their context, `[E, width]`.
+    edges: Vec<f32>,
+    /// Triples, `[T, width]`.
+    states: Vec<f32>,
 }
 
 impl Network {
@@ -197,21 +182,21 @@ impl Network {
         let layers = (0..config.layers).map(|k| Layer::new(&config, &vb.pp("layers").pp(k)));
         Ok(Self {
             config,
-            embed: linear(config.edge, w, vb.pp("embed"))?,
-            embed_out: linear(w, w, vb.pp("embed_out"))?,
+            embed: Linear::new(config.edge, w, &vb.pp("embed"))?,
+            embed_out: Linear::new(w, w, &vb.pp("embed_out"))?,
             relation: relation.t()?.to_vec2()?,
             layers: layers.collect::<Result<_>>()?,
-            norm: layer_norm(w, EPSILON, vb.pp("norm"))?,
-            outer: linear(w, w, vb.pp("outer"))?,
-            middle: linear_no_bias(w, w, vb.pp("middle"))?,
-            corner: linear_no_bias(config.corner, w, vb.pp("corner"))?,
-            sum: linear(w, w, vb.pp("sum"))?,
-            product: linear_no_bias(w, w, vb.pp("product"))?,
-            triple: linear_no_bias(config.triple, w, vb.pp("triple"))?,
-            score: linear(w, 1, vb.pp("score"))?,
-            hand: f64::from(vb.get(1, "hand")?.to_vec1::<f32>()?[0]),
-            loop_: linear(2 * w + 1, w, vb.pp("loop"))?,
-            kind: linear(w, config.kinds, vb.pp("kind"))?,
+            norm: LayerNorm::new(w, &vb.pp("norm"))?,
+            outer: Linear::new(w, w, &vb.pp("outer"))?,
+            middle: Linear::without_bias(w, w, &vb.pp("middle"))?,
+            corner: Linear::without_bias(config.corner, w, &vb.pp("corner"))?,
+            sum: Linear::new(w, w, &vb.pp("sum"))?,
+            product: Linear::without_bias(w, w, &vb.pp("product"))?,
+            triple: Linear::without_bias(config.triple, w, &vb.pp("triple"))?,
+            score: Linear::new(w, 1, &vb.pp("score"))?,
+            hand: vb.get(1, "hand")?.to_vec1::<f32>()?[0],
+            loop_: Linear::new(2 * w + 1, w, &vb.pp("loop"))?,
+            kind: Linear::new(w, config.kinds, &vb.pp("kind"))?,
         })
     }
 
@@ -220,85 +205,92 @@ impl Network {
     /// # Errors
     /// candle's, if the tables do not fit each other.
     pub fn encode(&self, inputs: &Inputs) -> Result<Encoded> {
-        let cpu = &Device::Cpu;
-        let table = |values: &[f32], width: usize| {
-            Tensor::from_slice(values, (values.len() / width, width), cpu)
-        };
         let x = self
             .embed
-            .forward(&table(&inputs.edges, self.config.edge)?)?;
-        let mut x = self.embed_out.forward(&x.relu()?)?;
-        let mut biases = self.biases(inputs);
-        for (layer, bias) in self.layers.iter().zip(&mut biases) {
-            let edges = inputs.edge_count();
-            let shape = (self.config.heads, edges, edges);
-            x = layer.forward(&x, &Tensor::from_vec(std::mem::take(bias), shape, cpu)?)?;
+            .forward_relu(&table(&inputs.edges, self.config.edge)?)?;
+        let mut x = self.embed_out.forward(&x)?;
+        let (classes, log_weights) = self.classes(inputs);
+        let by_layer = log_weights.len() / self.config.layers;
+        for (layer, log_weights) in self.layers.iter().zip(log_weights.chunks(by_layer.max(1))) {
+            let attention = Attention {
+                heads: self.config.heads,
+                classes: &classes,
+                log_weights,
+            };
+            x = layer.forward(&x, &attention)?;
         }
         let edges = self.norm.forward(&x)?;
-        let column = |pairs: &[[u32; 2]], k: usize| {
-            let list: Vec<u32> = pairs.iter().map(|p| p[k]).collect();
-            Tensor::new(list, cpu)
-        };
-        let at = |k| column(&inputs.corner_edges, k);
-        let outer = self.outer.forward(&edges)?.index_select(&at(0)?, 0)?;
-        let middle = self.middle.forward(&edges)?.index_select(&at(1)?, 0)?;
-        let own = self
-            .corner
-            .forward(&table(&inputs.corners, self.config.corner)?)?;
-        let corners = ((outer + middle)? + own)?.relu()?;
-        let end = |k| corners.index_select(&column(&inputs.triple_corners, k)?, 0);
-        let (a, b) = (end(0)?, end(1)?);
-        let states = (self.sum.forward(&(&a + &b)?)? + self.product.forward(&(a * b)?)?)?;
-        let own = self
-            .triple
-            .forward(&table(&inputs.triples, self.config.triple)?)?;
-        let states = (states + own)?.relu()?;
-        let hand = (Tensor::from_slice(&inputs.hand, inputs.hand.len(), cpu)? * self.hand)?;
-        let scores = (hand + self.score.forward(&states)?.squeeze(D::Minus1)?)?;
+        let corners = self.corners(inputs, &edges)?;
+        let states = self.states(inputs, &corners)?;
+        let own = numbers(&self.score.forward(&table(&states, self.config.width)?)?)?;
+        let scores = inputs.hand.iter().zip(own).map(|(h, x)| h * self.hand + x);
         Ok(Encoded {
-            scores: scores.to_vec1()?,
-            edges: edges.to_vec2()?,
-            states: states.to_vec2()?,
+            scores: scores.collect(),
+            edges: numbers(&edges)?,
+            states,
         })
     }
 
-    /// What the relations add to each layer's attention, `[heads, E, E]` flat.
-    ///
-    /// Few sets of relations occur: each one's sums are made once and then copied.
-    fn biases(&self, inputs: &Inputs) -> Vec<Vec<f32>> {
-        let pairs = inputs.relations.len();
-        let (layers, heads) = (self.config.layers, self.config.heads);
-        let mut place = vec![u32::MAX; 1 << RELATIONS];
-        let mut sums: Vec<f32> = Vec::new();
-        let rows = layers * heads;
-        let which: Vec<u32> = inputs
-            .relations
-            .iter()
-            .map(|&bits| {
-                let known = &mut place[usize::from(bits)];
-                if *known == u32::MAX {
-                    *known = (sums.len() / rows) as u32;
-                    let first = sums.len();
-                    sums.resize(first + rows, 0.0);
-                    for k in (0..RELATIONS).filter(|k| bits >> k & 1 == 1) {
-                        for (sum, x) in sums[first..].iter_mut().zip(&self.relation[k]) {
-                            *sum += x;
-                        }
-                    }
-                }
-                *known
-            })
-            .collect();
-        (0..layers)
-            .map(|layer| {
-                let mut bias = Vec::with_capacity(heads * pairs);
-                for head in 0..heads {
-                    let own = layer * heads + head;
-                    bias.extend(which.iter().map(|&p| sums[p as usize * rows + own]));
-                }
-                bias
-            })
-            .collect()
+    /// Corners, `[C, width]`.
+    fn corners(&self, inputs: &Inputs, edges: &Tensor) -> Result<Vec<f32>> {
+        let w = self.config.width;
+        let outer = numbers(&self.outer.forward(edges)?)?;
+        let middle = numbers(&self.middle.forward(edges)?)?;
+        let own = table(&inputs.corners, self.config.corner)?;
+        let mut corners = numbers(&self.corner.forward(&own)?)?;
+        for (corner, pair) in corners.chunks_exact_mut(w).zip(&inputs.corner_edges) {
+            let [outer, middle] = [row(&outer, pair[0], w), row(&middle, pair[1], w)];
+            for (x, (a, b)) in corner.iter_mut().zip(outer.iter().zip(middle)) {
+                *x = (a + b + *x).max(0.0);
+            }
+        }
+        Ok(corners)
+    }
+
+    /// Triples, `[T, width]`.
+    fn states(&self, inputs: &Inputs, corners: &[f32]) -> Result<Vec<f32>> {
+        let w = self.config.width;
+        let ends = |f: fn(f32, f32) -> f32| {
+            let mut ends = Vec::with_capacity(inputs.triple_corners.len() * w);
+            for &[a, b] in &inputs.triple_corners {
+                let pairs = row(corners, a, w).iter().zip(row(corners, b, w));
+                ends.extend(pairs.map(|(&a, &b)| f(a, b)));
+            }
+            table(&ends, w)
+        };
+        let mut states = numbers(&self.sum.forward(&ends(|a, b| a + b)?)?)?;
+        let product = numbers(&self.product.forward(&ends(|a, b| a * b)?)?)?;
+        let own = table(&inputs.triples, self.config.triple)?;
+        let own = numbers(&self.triple.forward(&own)?)?;
+        for (x, (a, b)) in states.iter_mut().zip(product.iter().zip(own)) {
+            *x = (*x + a + b).max(0.0);
+        }
+        Ok(states)
+    }
+
+    /// The set of relations of each pair of edges, `[E, E]`, and what each set that occurs adds to the
+    /// attention, `[layers, heads, sets]`.
+    fn classes(&self, inputs: &Inputs) -> (Vec<u16>, Vec<f32>) {
+        let mut place = vec![u16::MAX; 1 << RELATIONS];
+        let mut sets: Vec<u16> = Vec::new();
+        let class = |&bits: &u16| {
+            let known = &mut place[usize::from(bits)];
+            if *known == u16::MAX {
+                *known = sets.len() as u16;
+                sets.push(bits);
+            }
+            *known
+        };
+        let classes = inputs.relations.iter().map(class).collect();
+        let rows = 0..self.config.layers * self.config.heads;
+        let log_weights = rows.flat_map(|own| {
+            let sum = move |bits: &u16| {
+                let held = (0..RELATIONS).filter(|k| bits >> k & 1 == 1);
+                held.fold(0.0, |sum, k| sum + self.relation[k][own])
+            };
+            sets.iter().map(sum)
+        });
+        (classes, log_weights.collect())
     }
 
     /// Logits of the kinds of loops, `[L][kinds]`. A loop is the list of its triples, each with the
@@ -315,7 +307,8 @@ impl Network {
         for steps in loops {
             let mut mean = vec![0.0f32; 2 * w];
             for &(triple, edge) in steps {
-                let seen = encoded.states[triple].iter().chain(&encoded.edges[edge]);
+                let state = row(&encoded.states, triple as u32, w);
+                let seen = state.iter().chain(row(&encoded.edges, edge as u32, w));
                 for (sum, x) in mean.iter_mut().zip(seen) {
                     *sum += x;
                 }
@@ -326,7 +319,22 @@ impl Network {
         }
         let pooled = Tensor::from_vec(pooled, (loops.len(), 2 * w + 1), &Device::Cpu)?;
         self.kind
-            .forward(&self.loop_.forward(&pooled)?.relu()?)?
+            .forward(&self.loop_.forward_relu(&pooled)?)?
             .to_vec2()
     }
+}
+
+/// A table of rows of that width.
+fn table(values: &[f32], width: usize) -> Result<Tensor> {
+    Tensor::from_slice(values, (values.len() / width, width), &Device::Cpu)
+}
+
+/// The numbers of a table, row by row.
+fn numbers(table: &Tensor) -> Result<Vec<f32>> {
+    table.flatten_all()?.to_vec1()
+}
+
+/// One row of a table.
+fn row(values: &[f32], index: u32, width: usize) -> &[f32] {
+    &values[index as usize * width..][..width]
 }

@@ -118,7 +118,14 @@ fn numbering_and_walking_direction_do_not_change_scores() {
     let sorted = |drawing: &Drawing| {
         let graph = Graph::new(drawing);
         let triples = Triples::new(&graph);
-        let scores = scorer.score(drawing, &graph, &triples, Progress::none());
+        let directions = Directions::estimate(drawing).ok();
+        let scores = scorer.score(
+            drawing,
+            &graph,
+            &triples,
+            directions.as_ref(),
+            Progress::none(),
+        );
         let mut log_odds = scores.unwrap().log_odds;
         log_odds.sort_by(f64::total_cmp);
         log_odds

@@ -148,6 +148,7 @@ mod tests {
     use crate::drawing::Graph;
     use crate::identify::rotation::samples;
     use crate::identify::rotation::{HandScorer, TripleScorer, Triples};
+    use crate::lift::directions::Directions;
 
     const ALL: Augment = Augment {
         mirror: true,
@@ -163,7 +164,13 @@ mod tests {
         let triples = Triples::new(&graph);
         let scorer = HandScorer::default();
         let mut scores = scorer
-            .score(drawing, &graph, &triples, Progress::none())
+            .score(
+                drawing,
+                &graph,
+                &triples,
+                Directions::estimate(drawing).ok().as_ref(),
+                Progress::none(),
+            )
             .unwrap()
             .log_odds;
         scores.sort_by(f64::total_cmp);
