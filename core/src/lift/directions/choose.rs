@@ -1,8 +1,8 @@
 //! Which of the frames that the evidence allows.
 
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 
-use super::evidence::{CircleGroup, Evidence, Shown};
+use super::evidence::{CircleGroup, Cluster, Evidence, Shown};
 use super::hypotheses::{Hypothesis, frames};
 use super::model_frame::USUAL;
 use super::refine::{Followers, refine};
@@ -153,6 +153,7 @@ fn readings(evidence: &Evidence) -> Vec<Reading> {
             .iter()
             .filter_map(|c| axis_reading(evidence, c)),
     );
+    all.extend(isometric_reading(evidence));
     all.sort_by(|a, b| b.score.total_cmp(&a.score));
     all
 }
@@ -210,11 +211,13 @@ fn corners(evidence: &Evidence, followers: &Followers) -> f64 {
     evidence.corners.iter().filter_map(corner).sum()
 }
 
-fn frame_reading(
+/// The axes of a frame with the edges and circles that follow them, in how many votes, and how many
+/// numbers of a frame they and slanted edges would fix.
+fn followed(
     evidence: &Evidence,
     found: &Hypothesis,
     followers: &Followers,
-) -> Option<Reading> {
+) -> ([Axis; 3], usize, usize) {
     let mut axes = columns(&found.frame).map(|direction| Axis {
         direction: towards_viewer(direction),
         edges: Vec::new(),
@@ -236,6 +239,15 @@ fn frame_reading(
             votes += 2 * group.edges.len();
         }
     }
+    (axes, votes, constraints)
+}
+
+fn frame_reading(
+    evidence: &Evidence,
+    found: &Hypothesis,
+    followers: &Followers,
+) -> Option<Reading> {
+    let (axes, votes, constraints) = followed(evidence, found, followers);
     // Three constraints fix a frame. One without an edge or circle on some axis needs more to be
     // believed: two directions at a known angle beside an axis, or circles around two axes.
     let complete = axes
@@ -246,11 +258,21 @@ fn frame_reading(
     if constraints < 3 || !(complete || constraints > 3 && (slanted || around_two)) {
         return None;
     }
+    Some(reading(evidence, found, followers, axes, votes))
+}
+
+fn reading(
+    evidence: &Evidence,
+    found: &Hypothesis,
+    followers: &Followers,
+    axes: [Axis; 3],
+    votes: usize,
+) -> Reading {
     let upright = axes.iter().any(|a| {
         let drawn = a.direction.truncate();
         drawn.x.abs() < AGREE * found.error && drawn.y.abs() > 0.1
     });
-    Some(Reading {
+    Reading {
         score: explained(evidence, followers)
             + CORNER * corners(evidence, followers)
             + if upright { UPRIGHT } else { 0.0 },
@@ -262,7 +284,44 @@ fn frame_reading(
             precision: evidence.precision,
         },
         votes: votes as f64 - 3.0,
-    })
+    }
+}
+
+/// The isometric view with one axis upright, if edges are drawn at 30 degrees to the page's horizontal:
+/// no other view shows them so but by chance, and the less chance the better they are drawn.
+fn isometric_reading(evidence: &Evidence) -> Option<Reading> {
+    let frame = isometric();
+    let level = |c: &Cluster| {
+        let error = c.error(evidence.precision);
+        let off = (c.direction.y.abs() - 0.5).abs();
+        (off < AGREE * error).then(|| (CHANCE / error).ln().max(0.0))
+    };
+    let surprise: f64 = evidence.clusters.iter().filter_map(level).sum();
+    let error = evidence.clusters.iter().filter(|c| level(c).is_some());
+    let error = error
+        .map(|c| c.error(evidence.precision))
+        .fold(f64::INFINITY, f64::min);
+    if surprise == 0.0 {
+        return None;
+    }
+    let found = Hypothesis { frame, error };
+    let followers = Followers::new(evidence, &found);
+    let (axes, votes, _) = followed(evidence, &found, &followers);
+    let mut reading = reading(evidence, &found, &followers, axes, votes);
+    reading.score += surprise;
+    // Nothing is fitted.
+    reading.votes = votes as f64;
+    Some(reading)
+}
+
+/// Axes of the isometric view: along the page's vertical, and 30 degrees up to either side of it.
+fn isometric() -> DMat3 {
+    let rise = (1.0f64 / 3.0).sqrt();
+    let axis = |degrees: f64| {
+        let drawn = DVec2::from_angle(degrees.to_radians()) * (2.0f64 / 3.0).sqrt();
+        drawn.extend(rise)
+    };
+    DMat3::from_cols(axis(90.0), axis(210.0), axis(330.0))
 }
 
 /// The axis of a group of circles, from the circles and the straight edges along it.
