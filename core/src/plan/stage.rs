@@ -88,6 +88,7 @@ pub fn plan(drawing: &Drawing, faces: &[Face], lift: &Lift, options: &PlanOption
         .collect();
 
     let measured = measured(drawing, faces, lift, &view, &lifted)?;
+    notices.extend((0..faces.len()).filter_map(|f| assumed_tip(faces, &uses, f)));
     let mut smooth = smooth_pairs(drawing, faces, &uses, &measured);
     if lift.regular.is_some() {
         // Halves of one cylinder have one surface already, and others are different ones.
@@ -279,6 +280,24 @@ fn measured(
         });
     }
     Ok(measured)
+}
+
+/// What is said of a cone that only the end of a cylinder bounds: nothing drawn shows how deep it is.
+fn assumed_tip(faces: &[Face], uses: &[[Use; 2]], face: usize) -> Option<String> {
+    let kind = |u: &Use| faces[u.face].kind;
+    let [ring] = &faces[face].loops[..] else {
+        return None;
+    };
+    let ends_cylinder = ring.iter().all(|co| {
+        let mut kinds = uses[co.edge()].iter().map(kind);
+        kinds.any(|k| k == SurfaceKind::Cylinder)
+    });
+    (faces[face].kind == SurfaceKind::Cone && ends_cylinder).then(|| {
+        format!(
+            "the tip of face {} is not drawn; that of a drill was assumed",
+            face + 1
+        )
+    })
 }
 
 /// Pairs of faces that an outline may part: straight, unless the surface is a sphere or a torus, or

@@ -19,6 +19,7 @@ mod sphere;
 mod tests;
 #[cfg(test)]
 mod tests_sight;
+mod tip;
 mod truth;
 mod wholes;
 
@@ -73,15 +74,20 @@ pub(super) fn surfaces_of(
         }
     }
     for whole in &wholes {
-        if sheet.faces[whole[0]].kind == SurfaceKind::Other
-            && whole.iter().all(|&f| known[f] == Surface::Unknown)
-        {
-            let evidence = Evidence::new(sheet, heights, whole, &known);
-            let stand_in = judge::stand_in(&evidence, any(&evidence));
-            whole
-                .iter()
-                .for_each(|&f| known[f] = stand_in.unwrap_or(Surface::Unknown));
+        if whole.iter().any(|&f| known[f] != Surface::Unknown) {
+            continue;
         }
+        let instead = match sheet.faces[whole[0]].kind {
+            SurfaceKind::Other => {
+                let evidence = Evidence::new(sheet, heights, whole, &known);
+                judge::stand_in(&evidence, any(&evidence))
+            }
+            SurfaceKind::Cone => tip::hidden(sheet, heights, whole, &known),
+            _ => None,
+        };
+        whole
+            .iter()
+            .for_each(|&f| known[f] = instead.unwrap_or(Surface::Unknown));
     }
     known
 }

@@ -9,6 +9,9 @@ use super::evidence::Evidence;
 use crate::lift::Surface;
 use crate::lift::circle::circle_fit;
 
+/// Profiles narrower than this, relative to the drawing's size, are one circle drawn with errors.
+const ONE_CIRCLE: f64 = 3e-5;
+
 /// The cylinder around an axis: the mean distance.
 pub(super) fn cylinder(evidence: &Evidence, axis: &Axis) -> Option<Surface> {
     let count = evidence.points().count();
@@ -33,6 +36,11 @@ pub(super) fn cone(evidence: &Evidence, axis: &Axis) -> Option<Surface> {
         xx += d.x * d.x;
         xy += d.x * d.y;
         yy += d.y * d.y;
+    }
+    // One circle alone is the boundary of any cone.
+    let spread = f64::sqrt((xx + yy) / points.len() as f64);
+    if spread < ONE_CIRCLE * evidence.size {
+        return None;
     }
     // Direction of the largest spread, towards growing radius.
     let along = DVec2::from_angle(0.5 * (2.0 * xy).atan2(xx - yy));
