@@ -5,6 +5,7 @@ use std::borrow::Cow;
 
 use glam::{DVec2, DVec3};
 
+use super::camera::Relation;
 use super::circle::DrawnCircle;
 use super::directions::Directions;
 use super::sheet::Sheet;
@@ -16,6 +17,9 @@ use crate::identify::Face;
 
 /// Sine of the angle below which neighbouring planes are one.
 const BENT: f64 = 0.02;
+
+/// Share of a normal towards the viewer below which a plane is seen from its edge.
+const EDGE_ON: f64 = 0.01;
 
 /// A drawing with all readings of its directions; one by hand is made straight by each.
 pub(crate) struct Readings<'a> {
@@ -74,6 +78,22 @@ pub(crate) struct Tilt {
 }
 
 impl Tilt {
+    /// The plane with the normal `n` through the point of a height that is drawn at `at`, unless it
+    /// is seen from its edge.
+    pub(crate) fn across(camera: Camera, n: DVec3, at: DVec2, height: f64) -> Option<Self> {
+        let over = |p: DVec2| {
+            let Relation { to, from, rise } = camera.across(n, at, p);
+            (from * height + rise) / to
+        };
+        let [x, y] = [DVec2::X, DVec2::Y].map(|d| over(at + d) - height);
+        (camera.facing(n, at).abs() > EDGE_ON).then(|| Self {
+            a: -x,
+            b: -y,
+            c: x * at.x + y * at.y - height,
+            camera,
+        })
+    }
+
     /// [Level](Camera::level) of a drawn point.
     pub(crate) fn level(&self, p: DVec2) -> f64 {
         self.camera.level(self.height(p))
