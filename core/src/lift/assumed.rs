@@ -8,6 +8,7 @@ use super::directions::AGREE;
 use super::revolved;
 use super::rows::{Tag, Unknowns, along, beside_axes, normal_to};
 use super::sheet::Sheet;
+use super::similar;
 use super::system::System;
 use crate::drawing::{Curve2, SurfaceKind};
 
@@ -15,10 +16,11 @@ use crate::drawing::{Curve2, SurfaceKind};
 pub(super) type Level = fn(&Sheet<'_>, &Unknowns, &mut System<Tag>);
 
 /// The sets, surest first.
-pub(super) const LEVELS: [Level; 10] = [
+pub(super) const LEVELS: [Level; 11] = [
     parallel,
     // The sides of a frustum would pass for ends of prisms.
     frustums,
+    similar::ends,
     prisms,
     beside_axes,
     revolved::on_one_axis,

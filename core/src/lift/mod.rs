@@ -8,6 +8,7 @@
 mod assumed;
 mod blame;
 mod camera;
+mod chance;
 mod circle;
 mod completion;
 mod conflicts;
@@ -27,6 +28,7 @@ mod ring_torus;
 mod rows;
 mod shape;
 mod sheet;
+mod similar;
 mod solve;
 mod split;
 mod straight;

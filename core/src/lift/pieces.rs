@@ -12,7 +12,7 @@ use super::sheet::Sheet;
 use super::solve::{self, Solved};
 use super::straight::{Straight, ends, straightened};
 use super::{Camera, LiftError};
-use crate::drawing::{Curve2, Drawing, Edge};
+use crate::drawing::{Curve2, Drawing, Edge, SurfaceKind};
 use crate::identify::Face;
 
 /// Sine of the angle below which neighbouring planes are one.
@@ -156,7 +156,24 @@ impl Pieces {
     ) -> Result<(usize, Cow<'a, Drawing>, Self), LiftError> {
         let sheet = Sheet::new(drawing, faces, directions);
         let solved = solve::solve_parts(&sheet)?;
-        let wrong = solved.dropped() + oblique(&sheet);
+        let wrong = solved.dropped() + oblique(&sheet) + flat(&sheet, &solved);
+        let wrong = wrong + open(&sheet, &solved);
+        if std::env::var_os("FF_DBG").is_some() {
+            eprintln!(
+                "reading {:?} dropped {} oblique {} flat {} planes {}",
+                directions
+                    .axes
+                    .iter()
+                    .map(|a| (a.direction, a.edges.len(), a.circles.len()))
+                    .collect::<Vec<_>>(),
+                solved.dropped(),
+                oblique(&sheet),
+                flat(&sheet, &solved),
+                (0..faces.len())
+                    .filter(|f| solved.plane(*f).is_some())
+                    .count()
+            );
+        } // PROBE
         Ok((wrong, Cow::Borrowed(drawing), Self::of(&sheet, solved)))
     }
 
@@ -230,6 +247,14 @@ fn oblique(sheet: &Sheet<'_>) -> usize {
         matches!(edge.curve, Curve2::Ellipse(_)) && circle.is_none()
     };
     edges.filter(is_oblique).count()
+}
+
+/// Number of planes whose slope stays open: what is not lifted contradicts nothing.
+fn open(sheet: &Sheet<'_>, solved: &Solved) -> usize {
+    let faces = sheet.faces.iter().enumerate();
+    let is_open =
+        |(f, face): &(usize, &Face)| face.kind == SurfaceKind::Plane && solved.plane(*f).is_none();
+    faces.filter(is_open).count()
 }
 
 /// Number of edges between planes that are one: what is read wrongly is often flat.
