@@ -1,5 +1,7 @@
 //! Known solids, drawn, for the tests of this crate.
 
+use std::f64::consts::{PI, SQRT_2};
+
 use glam::{DMat3, DVec3};
 
 use crate::drawing::{CoEdge, Curve2, Drawing, Edge, Projection, SurfaceKind, Truth, TruthFace};
@@ -56,6 +58,68 @@ pub(crate) fn polyhedron(corners: &[[f64; 3]], faces: &[&[&[usize]]]) -> Drawing
         }),
         edges,
     }
+}
+
+/// The same solid seen from another side.
+pub(crate) fn seen(mut drawing: Drawing, turn: f64, tilt: f64) -> Drawing {
+    let truth = drawing.truth.as_mut().unwrap();
+    let to_model = DMat3::from_cols(
+        truth.directions[0],
+        truth.directions[1],
+        truth.directions[2],
+    )
+    .transpose();
+    let view = DMat3::from_rotation_x(tilt) * DMat3::from_rotation_z(turn) * to_model;
+    let turned: Vec<DVec3> = truth.vertices3d.iter().map(|p| view * *p).collect();
+    drawing.vertices = turned.iter().map(|p| p.truncate()).collect();
+    for edge in &mut drawing.edges {
+        edge.points = edge.v.map(|v| drawing.vertices[v]).to_vec();
+    }
+    truth.vertices3d = turned;
+    drawing
+}
+
+/// A block with two chamfers and a pocket of three corners in its top, seen isometrically: both
+/// ends of one chamfer are drawn parallel to an axis that they do not follow.
+pub(crate) fn chamfered() -> Drawing {
+    let corners = [
+        [10.0, 2.4, 0.0],
+        [10.0, 2.4, 10.0],
+        [7.6, 0.0, 10.0],
+        [7.6, 0.0, 1.6],
+        [9.2, 1.6, 0.0],
+        [0.0, 1.6, 0.0],
+        [0.0, 10.0, 0.0],
+        [10.0, 10.0, 0.0],
+        [0.0, 0.0, 1.6],
+        [10.0, 10.0, 10.0],
+        [0.0, 0.0, 10.0],
+        [0.0, 10.0, 10.0],
+        [2.0, 4.0, 10.0],
+        [3.0, 2.5, 10.0],
+        [1.5, 2.5, 10.0],
+        [2.0, 4.0, 5.0],
+        [3.0, 2.5, 5.0],
+        [1.5, 2.5, 5.0],
+    ];
+    let drawing = polyhedron(
+        &corners,
+        &[
+            &[&[10, 2, 1, 9, 11], &[12, 13, 14]],
+            &[&[5, 6, 7, 0, 4]],
+            &[&[8, 3, 2, 10]],
+            &[&[5, 4, 3, 8]],
+            &[&[2, 3, 4, 0, 1]],
+            &[&[0, 7, 9, 1]],
+            &[&[7, 6, 11, 9]],
+            &[&[5, 8, 10, 11, 6]],
+            &[&[17, 16, 15]],
+            &[&[13, 12, 15, 16]],
+            &[&[14, 13, 16, 17]],
+            &[&[12, 14, 17, 15]],
+        ],
+    );
+    seen(drawing, 1.75 * PI, -SQRT_2.atan())
 }
 
 /// A right prism of height `height` over a simple polygon, counter-clockwise seen from above.

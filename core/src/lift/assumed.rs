@@ -9,6 +9,7 @@ use super::revolved;
 use super::rows::{Tag, Unknowns, along, beside_axes, normal_to};
 use super::rulings::rulings;
 use super::sheet::Sheet;
+use super::similar;
 use super::system::System;
 use crate::drawing::{Curve2, SurfaceKind};
 
@@ -23,6 +24,7 @@ pub(super) const LEVELS: [Level; 11] = [
     parallel,
     // The sides of a frustum would pass for ends of prisms.
     frustums,
+    similar::ends,
     prisms,
     beside_axes,
     revolved::on_one_axis,

@@ -8,6 +8,7 @@
 mod assumed;
 mod blame;
 mod camera;
+mod chance;
 mod circle;
 mod completion;
 mod conflicts;
@@ -28,6 +29,7 @@ mod rows;
 mod rulings;
 mod shape;
 mod sheet;
+mod similar;
 mod solve;
 mod split;
 mod straight;

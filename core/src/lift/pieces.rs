@@ -5,17 +5,21 @@ use std::borrow::Cow;
 
 use glam::{DVec2, DVec3};
 
+use super::camera::Relation;
 use super::circle::DrawnCircle;
 use super::directions::Directions;
 use super::sheet::Sheet;
 use super::solve::{self, Solved};
 use super::straight::{Straight, ends, straightened};
 use super::{Camera, LiftError};
-use crate::drawing::{Curve2, Drawing, Edge};
+use crate::drawing::{Curve2, Drawing, Edge, SurfaceKind};
 use crate::identify::Face;
 
 /// Sine of the angle below which neighbouring planes are one.
 const BENT: f64 = 0.02;
+
+/// Share of a normal towards the viewer below which a plane is seen from its edge.
+const EDGE_ON: f64 = 0.01;
 
 /// A drawing with all readings of its directions; one by hand is made straight by each.
 pub(crate) struct Readings<'a> {
@@ -82,6 +86,22 @@ pub(crate) struct Tilt {
 }
 
 impl Tilt {
+    /// The plane with the normal `n` through the point of a height that is drawn at `at`, unless it
+    /// is seen from its edge.
+    pub(crate) fn across(camera: Camera, n: DVec3, at: DVec2, height: f64) -> Option<Self> {
+        let over = |p: DVec2| {
+            let Relation { to, from, rise } = camera.across(n, at, p);
+            (from * height + rise) / to
+        };
+        let [x, y] = [DVec2::X, DVec2::Y].map(|d| over(at + d) - height);
+        (camera.facing(n, at).abs() > EDGE_ON).then(|| Self {
+            a: -x,
+            b: -y,
+            c: x * at.x + y * at.y - height,
+            camera,
+        })
+    }
+
     /// [Level](Camera::level) of a drawn point.
     pub(crate) fn level(&self, p: DVec2) -> f64 {
         self.camera.level(self.height(p))
@@ -144,7 +164,24 @@ impl Pieces {
     ) -> Result<(usize, Cow<'a, Drawing>, Self), LiftError> {
         let sheet = Sheet::new(drawing, faces, directions);
         let solved = solve::solve_parts(&sheet)?;
-        let wrong = solved.dropped() + oblique(&sheet);
+        let wrong = solved.dropped() + oblique(&sheet) + flat(&sheet, &solved);
+        let wrong = wrong + open(&sheet, &solved);
+        if std::env::var_os("FF_DBG").is_some() {
+            eprintln!(
+                "reading {:?} dropped {} oblique {} flat {} planes {}",
+                directions
+                    .axes
+                    .iter()
+                    .map(|a| (a.direction, a.edges.len(), a.circles.len()))
+                    .collect::<Vec<_>>(),
+                solved.dropped(),
+                oblique(&sheet),
+                flat(&sheet, &solved),
+                (0..faces.len())
+                    .filter(|f| solved.plane(*f).is_some())
+                    .count()
+            );
+        } // PROBE
         Ok((wrong, Cow::Borrowed(drawing), Self::of(&sheet, solved)))
     }
 
@@ -218,6 +255,14 @@ fn oblique(sheet: &Sheet<'_>) -> usize {
         matches!(edge.curve, Curve2::Ellipse(_)) && circle.is_none()
     };
     edges.filter(is_oblique).count()
+}
+
+/// Number of planes whose slope stays open: what is not lifted contradicts nothing.
+fn open(sheet: &Sheet<'_>, solved: &Solved) -> usize {
+    let faces = sheet.faces.iter().enumerate();
+    let is_open =
+        |(f, face): &(usize, &Face)| face.kind == SurfaceKind::Plane && solved.plane(*f).is_none();
+    faces.filter(is_open).count()
 }
 
 /// Number of edges between planes that are one: what is read wrongly is often flat.

@@ -3,6 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::Camera;
+use super::chance::Witness;
 use super::circle::{DrawnCircle, circle_through};
 use super::directions::{AGREE, Directions, Evidence};
 use crate::drawing::{Curve2, Drawing, SurfaceKind};
@@ -77,6 +78,12 @@ impl<'a> Sheet<'a> {
                 *axis = None;
             }
         }
+        let witness = Witness {
+            faces,
+            edges: &face_edges,
+            faces_of: &faces_of,
+        };
+        witness.release(&mut edge_axis);
         let mut edges_at = vec![Vec::new(); drawing.vertices.len()];
         for (e, edge) in drawing.edges.iter().enumerate() {
             edges_at[edge.v[0]].push(e);

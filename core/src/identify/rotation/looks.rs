@@ -104,6 +104,9 @@ impl Looks {
             if grouping.round[f] {
                 return self.round(list);
             }
+            if grouping.flat[f] {
+                return SurfaceKind::Plane;
+            }
             let (&[only], Some(twin)) = (list.as_slice(), self.twin[list[0]]) else {
                 return own;
             };
@@ -165,6 +168,7 @@ mod tests {
             faces: faces.iter().map(|f| f.to_vec()).collect(),
             sureness: vec![1.0; faces.len()],
             round: round.to_vec(),
+            flat: vec![false; faces.len()],
             reversed: vec![false; faces.iter().map(|f| f.len()).sum()],
             score: 0.0,
         }

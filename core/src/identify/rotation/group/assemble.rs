@@ -59,15 +59,19 @@ impl Joiner<'_> {
         let turned: Vec<bool> = (0..shapes.parts.len())
             .map(|p| state.placed[p].map_or_else(|| shapes.volume(p) < 0.0, |place| place.turned))
             .collect();
+        let used_as = |role: Role| {
+            let used = faces
+                .iter()
+                .map(|f| f.len() > 1 && state.roles[f[0]] == role);
+            used.collect()
+        };
         Grouping {
             sureness: faces
                 .iter()
                 .map(|f| f.iter().map(|&i| sure[i]).fold(1.0, f64::min))
                 .collect(),
-            round: faces
-                .iter()
-                .map(|f| f.len() > 1 && state.roles[f[0]] == Role::Round)
-                .collect(),
+            round: used_as(Role::Round),
+            flat: used_as(Role::Flat),
             faces,
             reversed: shapes.loops.iter().map(|l| turned[l.part]).collect(),
             score: 0.0,

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use crate::drawing::{Curve2, Drawing};
 use crate::identify::Face;
-use crate::lift::{Pieces, circle_through};
+use crate::lift::{Pieces, Tilt, circle_through};
 
 /// The line that a loop's circles are around.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,6 +37,15 @@ pub(super) fn is_ring(drawing: &Drawing, pieces: &Pieces, face: &Face) -> bool {
         }
     }
     (sweep - std::f64::consts::TAU).abs() < 0.05
+}
+
+/// The plane of a loop that is a whole circle, unless it is seen from its edge.
+pub(super) fn ring_plane(drawing: &Drawing, pieces: &Pieces, face: &Face) -> Option<Tilt> {
+    let edge = face.loops.iter().flatten().next()?.edge();
+    let (axis, _) = pieces.circle(edge)?;
+    let v = drawing.edges[edge].v[0];
+    let (normal, at) = (pieces.axes[axis], drawing.vertices[v]);
+    Tilt::across(pieces.camera, normal, at, pieces.height(v))
 }
 
 /// Axis of the best shown circle of a loop without lines.
@@ -135,4 +144,24 @@ fn nearest(points: &[DVec2], p: DVec2) -> f64 {
         p.distance_squared(w[0] + d * t.clamp(0.0, 1.0))
     });
     spans.fold(f64::INFINITY, f64::min).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::group;
+    use super::super::round::{Round, drawn};
+    use crate::drawing::{Graph, SurfaceKind};
+    use crate::lift::Readings;
+
+    /// A hole, one of whose ends looks as if it bounded a cone.
+    #[test]
+    fn a_circle_is_in_a_plane_whatever_it_looks_like() {
+        let cylinder = |x: f64, radius: f64| Round::cylinder([x, 0.5], radius, 0.0, 0.5);
+        let (drawing, mut loops) = drawn(&[cylinder(0.0, 2.0), cylinder(1.0, 0.3)]);
+        loops[4].kind = SurfaceKind::Cone;
+        let found = group(&Readings::new(&drawing), &Graph::new(&drawing), &loops);
+        let mut joined = found[0].faces.clone();
+        joined.retain(|f| f.len() > 1);
+        assert_eq!(joined, [[0, 4], [1, 5]]);
+    }
 }

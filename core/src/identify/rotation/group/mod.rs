@@ -48,6 +48,8 @@ pub(super) struct Grouping {
     pub(super) sureness: Vec<f64>,
     /// Whether each face is a surface of revolution between two circles.
     pub(super) round: Vec<bool>,
+    /// Whether each face is a plane because of its several loops.
+    pub(super) flat: Vec<bool>,
     /// Whether each loop is to be walked backwards, so that all faces are seen from one side.
     pub(super) reversed: Vec<bool>,
     /// Log-odds against the best grouping.
@@ -61,6 +63,7 @@ pub(super) fn group(readings: &Readings<'_>, graph: &Graph, loops: &[Face]) -> V
             faces: (0..loops.len()).map(|i| vec![i]).collect(),
             sureness: vec![1.0; loops.len()],
             round: vec![false; loops.len()],
+            flat: vec![false; loops.len()],
             reversed: vec![false; loops.len()],
             score: 0.0,
         }];

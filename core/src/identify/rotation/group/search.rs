@@ -68,7 +68,19 @@ impl<'a> Search<'a> {
         push_trials(&mut heap, &runs, 0);
         let mut seen = BTreeSet::new();
         let mut found = Vec::new();
-        self.keep(&runs[0], &mut seen, &mut found);
+        let cost = self.keep(&runs[0], &mut seen, &mut found);
+        if !self.chains.is_empty() {
+            // What hangs on a part that only a chain places waits for all chains.
+            let none = Run {
+                steps: Vec::new(),
+                states: vec![self.start()],
+                log_likelihood: 0.0,
+                from: 0,
+            };
+            let known = found.len();
+            let behind = self.keep(&none, &mut seen, &mut found) - cost;
+            found[known..].iter_mut().for_each(|g| g.score -= behind);
+        }
         let tries = (3000 / self.joiner.shapes.loops.len().max(1)).clamp(3, 12);
         for _ in 0..tries {
             let Some(trial) = heap.pop() else { break };
@@ -89,8 +101,14 @@ impl<'a> Search<'a> {
     }
 
     /// Keeps the groupings that a run leads to and that are new: the likeliest matching of its
-    /// chains, and for each chain the next ones.
-    fn keep(&self, run: &Run, seen: &mut BTreeSet<Vec<Vec<usize>>>, found: &mut Vec<Grouping>) {
+    /// chains, and for each chain the next ones. Returns the cost of the likeliest ones.
+    fn keep(
+        &self,
+        run: &Run,
+        seen: &mut BTreeSet<Vec<Vec<usize>>>,
+        found: &mut Vec<Grouping>,
+    ) -> f64 {
+        let mut whole = 0.0;
         let mut best = run.states[run.states.len() - 1].clone();
         let mut others: Vec<(State, f64)> = Vec::new();
         for chain in &self.chains {
@@ -100,18 +118,22 @@ impl<'a> Search<'a> {
                 *state = self.matched(chain, state).swap_remove(0).0;
             }
             let mut ranked = ranked.into_iter();
-            let first = ranked.next().map(|(state, _)| state);
-            others.extend(ranked);
-            best = first.unwrap_or(best);
+            let Some((first, cost)) = ranked.next() else {
+                continue;
+            };
+            others.extend(ranked.map(|(state, other)| (state, other - cost)));
+            best = first;
+            whole += cost;
         }
         self.keep_one(run, &best, 0.0, seen, found);
         for (state, behind) in &others {
             self.keep_one(run, state, *behind, seen, found);
         }
+        whole
     }
 
     /// A state with a chain as it is or matched anew, the likeliest first, never none; each with its
-    /// cost beyond that of the first, but for what [`Self::loose`] says of it.
+    /// cost, but for what [`Self::loose`] says of it.
     fn matched(&self, chain: &Chain, state: &State) -> Vec<(State, f64)> {
         let all = chain.matchings(self.joiner.shapes, self.joiner.links, state);
         let loose = |state: &State| LOOSE * self.loose(state) as f64;
@@ -121,9 +143,8 @@ impl<'a> Search<'a> {
         ranked.extend(anew.map(|(state, cost)| (cost + loose(&state), cost, state)));
         ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
         ranked.truncate(1 + OTHERS);
-        let first = ranked[0].1;
-        let behind = |(_, cost, state)| (state, cost - first);
-        ranked.into_iter().map(behind).collect()
+        let costly = |(_, cost, state)| (state, cost);
+        ranked.into_iter().map(costly).collect()
     }
 
     /// Pieces of the solid, but one, that no face joins to another.

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::axis::{AxisLine, axis_line, is_ring};
+use super::axis::{AxisLine, axis_line, is_ring, ring_plane};
 use super::tolerance::squared;
 use crate::drawing::{Curve2, Drawing, Graph, SurfaceKind};
 use crate::identify::Face;
@@ -309,11 +309,16 @@ fn outline(
         _ => false,
     };
     let curved = face.kind != SurfaceKind::Plane || fold;
-    let plane = (!curved).then(|| pieces.plane(index)).flatten();
+    let ring = is_ring(drawing, pieces, face);
+    let plane = match curved {
+        // What looks like the end of a cone may be in a plane.
+        true if ring => ring_plane(drawing, pieces, face),
+        true => None,
+        false => pieces.plane(index),
+    };
     let area = polygon::signed_area(&polygon);
     let turn = pieces.precision * (high - low).length() / area.abs().max(f64::MIN_POSITIVE);
     let plane = plane.map(|p| squared(p, pieces, turn, (low + high) / 2.0));
-    let ring = is_ring(drawing, pieces, face);
     let mut outline = Outline {
         part,
         vertices,

@@ -1,15 +1,15 @@
 //! Boxes with pockets, holes and bosses, seen from anywhere.
 
 use std::collections::BTreeSet;
+use std::f64::consts::PI;
 
-use glam::{DMat3, DVec3};
 use proptest::prelude::*;
 
 use super::*;
 use crate::Progress;
 use crate::drawing::{CoEdge, Drawing, SurfaceKind};
 use crate::identify::rotation::RotationEngine;
-use crate::identify::testing::{bracket, holed_cube, polyhedron};
+use crate::identify::testing::{bracket, chamfered, holed_cube, polyhedron, seen};
 use crate::identify::{Engine, Evidence, from_truth};
 
 /// What is in the top of a box of 4 by 3 by 2.
@@ -64,25 +64,6 @@ fn block(features: &[Feature]) -> Drawing {
         .collect();
     let faces: Vec<&[&[usize]]> = faces.iter().map(Vec::as_slice).collect();
     polyhedron(&corners, &faces)
-}
-
-/// The same solid seen from another side.
-fn seen(mut drawing: Drawing, turn: f64, tilt: f64) -> Drawing {
-    let truth = drawing.truth.as_mut().unwrap();
-    let to_model = DMat3::from_cols(
-        truth.directions[0],
-        truth.directions[1],
-        truth.directions[2],
-    )
-    .transpose();
-    let view = DMat3::from_rotation_x(tilt) * DMat3::from_rotation_z(turn) * to_model;
-    let turned: Vec<DVec3> = truth.vertices3d.iter().map(|p| view * *p).collect();
-    drawing.vertices = turned.iter().map(|p| p.truncate()).collect();
-    for edge in &mut drawing.edges {
-        edge.points = edge.v.map(|v| drawing.vertices[v]).to_vec();
-    }
-    truth.vertices3d = turned;
-    drawing
 }
 
 pub(super) fn single_loops(drawing: &Drawing) -> Vec<Face> {
@@ -264,6 +245,51 @@ fn without_directions_loops_stay_alone() {
 }
 
 /// Moves every vertex by a share of the drawing's size to a side of its own.
+/// Two chamfers meet in an edge that is drawn parallel to an axis.
+#[test]
+fn an_edge_that_follows_an_axis_by_chance_does_not_tilt_the_top() {
+    let drawing = chamfered();
+    let loops = single_loops(&drawing);
+    let found = group(&Readings::new(&drawing), &Graph::new(&drawing), &loops);
+    let joined: Vec<_> = found[0].faces.iter().filter(|f| f.len() > 1).collect();
+    // The top and the pocket's opening.
+    assert_eq!(joined, [&[0, 1]]);
+}
+
+/// A drafted pocket of five corners in a block: its ends follow no axes.
+#[test]
+fn a_drafted_pocket_is_in_its_face() {
+    let mut corners: Vec<[f64; 3]> = vec![];
+    for z in [0.0, 2.0] {
+        corners.extend([[0.0, 0.0, z], [4.0, 0.0, z], [4.0, 3.0, z], [0.0, 3.0, z]]);
+    }
+    for (radius, z) in [(1.0, 2.0), (0.7, 1.1)] {
+        let at = |k: u32| glam::DVec2::from_angle(0.3 + 0.4 * PI * f64::from(k)) * radius;
+        corners.extend((0..5).map(at).map(|p| [1.7 + p.x, 1.4 + p.y, z]));
+    }
+    let drawing = polyhedron(
+        &corners,
+        &[
+            &[&[4, 5, 6, 7], &[12, 11, 10, 9, 8]],
+            &[&[3, 2, 1, 0]],
+            &[&[0, 1, 5, 4]],
+            &[&[1, 2, 6, 5]],
+            &[&[2, 3, 7, 6]],
+            &[&[3, 0, 4, 7]],
+            &[&[13, 14, 15, 16, 17]],
+            &[&[8, 9, 14, 13]],
+            &[&[9, 10, 15, 14]],
+            &[&[10, 11, 16, 15]],
+            &[&[11, 12, 17, 16]],
+            &[&[12, 8, 13, 17]],
+        ],
+    );
+    let loops = single_loops(&drawing);
+    let found = group(&Readings::new(&drawing), &Graph::new(&drawing), &loops);
+    let joined: Vec<_> = found[0].faces.iter().filter(|f| f.len() > 1).collect();
+    assert_eq!(joined, [&[0, 1]]);
+}
+
 fn shaken(mut drawing: Drawing, share: f64) -> Drawing {
     let by = share * drawing.size();
     for (i, p) in drawing.vertices.iter_mut().enumerate() {
