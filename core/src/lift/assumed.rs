@@ -20,7 +20,7 @@ const SAME: f64 = 1e-3;
 pub(super) type Level = fn(&Sheet<'_>, &Unknowns, &mut System<Tag>);
 
 /// The sets, surest first.
-pub(super) const LEVELS: [Level; 11] = [
+pub(super) const LEVELS: [Level; 12] = [
     parallel,
     // The sides of a frustum would pass for ends of prisms.
     frustums,
