@@ -387,3 +387,57 @@ pub(super) fn on_cylinder(sheet: &Sheet<'_>, _: &Unknowns, system: &mut System<T
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::drawing::Drawing;
+    use crate::lift::directions::Directions;
+    use crate::lift::testing::{Scene, turned};
+
+    /// A shaft of three pieces, of which the middle one is called a cone, in perspective. The ends of
+    /// outlines are on a circle by symmetry, and both halves of a circle have one centre: neither says
+    /// anything of depth.
+    #[test]
+    fn outlines_and_halves_of_one_circle_tell_no_depth() {
+        let mut scene = Scene::central(turned(0.6, 0.7, 0.1), DVec3::Z * -7.0, DVec2::ZERO, 3.0);
+        let mut rings = Vec::new();
+        for (z, length) in [(-1.5, 1.0), (-0.5, 0.6), (0.1, 1.0)] {
+            let [start, end] = scene.wall(DVec3::Z * z, DVec3::Z * length, 0.5);
+            rings.extend([start, end]);
+        }
+        let (drawing, mut faces) = scene.finish();
+        faces[2].kind = SurfaceKind::Cone;
+        faces[3].kind = SurfaceKind::Cone;
+        let directions = Directions::estimate(&drawing).unwrap();
+        let rows = |drawing: &Drawing| {
+            let sheet = Sheet::new(drawing, &faces, &directions);
+            let unknowns = Unknowns::new(&sheet);
+            let mut system = System::new(unknowns.count);
+            on_one_axis(&sheet, &unknowns, &mut system);
+            system.rows().to_vec()
+        };
+        let truth = drawing.truth.as_ref().unwrap();
+        let places = truth.vertices3d.iter();
+        let heights: Vec<f64> = places.map(|p| directions.camera.height(p.z)).collect();
+        for row in rows(&drawing) {
+            let largest = row.terms.iter().fold(0.0f64, |m, t| m.max(t.1.abs()));
+            assert!(largest > 0.1, "{row:?}");
+            assert!((row.residual(&heights) * row.weight).abs() < 1.0, "{row:?}");
+        }
+        // Where the circles are not told, nothing is left.
+        let mut waved = drawing.clone();
+        for edge in &mut waved.edges {
+            if !matches!(edge.curve, Curve2::Line) {
+                let last = edge.points.len() - 1;
+                for (i, p) in edge.points.iter_mut().enumerate().take(last).skip(1) {
+                    p.x += 0.01 * (i as f64).sin();
+                }
+                edge.curve = Curve2::recognise(&edge.points);
+            }
+        }
+        assert_eq!(rows(&waved), []);
+    }
+}

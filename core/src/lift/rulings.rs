@@ -120,3 +120,47 @@ fn relate(
     let error = error * (1.0 - share) + 4.0 * sheet.directions.precision;
     system.push(terms, rhs, error.recip(), tag);
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::lift::directions::Directions;
+    use crate::lift::system::Row;
+    use crate::lift::testing::{Scene, turned};
+
+    /// Half a frustum between two lines of its cone.
+    #[test]
+    fn the_lines_of_a_cone_are_as_high_as_its_apex_tells() {
+        let turn = turned(0.6, 0.7, 0.1);
+        let far = Scene::central(turn, DVec3::Z * -6.0, DVec2::ZERO, 3.0);
+        for mut scene in [Scene::new(turn), far] {
+            let (tip, share) = (DVec3::Z * 2.0, 0.4);
+            let ends = [DVec3::X, DVec3::new(-0.4, 0.2, 0.0).normalize()];
+            let base = scene.arc(DVec3::ZERO, DVec3::Z, ends[0], ends[1]);
+            let rest = scene.arc(DVec3::ZERO, DVec3::Z, ends[1], ends[0]);
+            let small = ends.map(|e| e * (1.0 - share));
+            let top = scene.arc(tip * share, DVec3::Z, small[0], small[1]);
+            let lines = ends.map(|e| scene.line(e, e.lerp(tip, share)));
+            scene.face(SurfaceKind::Cone, &[vec![base, lines[1], top, lines[0]]]);
+            scene.face(SurfaceKind::Plane, &[vec![base, rest]]);
+            let (drawing, faces) = scene.finish();
+            let directions = Directions::estimate(&drawing).unwrap();
+            let truth = drawing.truth.as_ref().unwrap();
+            let fits = |d: &Directions| {
+                let sheet = Sheet::new(&drawing, &faces, d);
+                let unknowns = Unknowns::new(&sheet);
+                let mut system = System::new(unknowns.count);
+                rulings(&sheet, &unknowns, &mut system);
+                let places = truth.vertices3d.iter();
+                let heights: Vec<f64> = places.map(|p| d.camera.height(p.z)).collect();
+                let off = |r: &Row<Tag>| (r.residual(&heights) * r.weight).abs();
+                system.rows().len() == 2 && system.rows().iter().all(|r| off(r) < 1.0)
+            };
+            // A parallel projection shows the reversed cone as well.
+            let reversed = directions.camera.is_parallel() && fits(&directions.clone().reversed());
+            assert!(fits(&directions) != reversed);
+        }
+    }
+}

@@ -90,7 +90,7 @@ impl Scene {
     }
 
     /// An arc around `axis` from `center + from`, counter-clockwise, to `center + to`.
-    fn arc(&mut self, center: DVec3, axis: DVec3, from: DVec3, to: DVec3) -> usize {
+    pub(super) fn arc(&mut self, center: DVec3, axis: DVec3, from: DVec3, to: DVec3) -> usize {
         let v = [self.vertex(center + from), self.vertex(center + to)];
         let side = axis.cross(from);
         let sweep = to.dot(side).atan2(to.dot(from)).rem_euclid(2.0 * PI);

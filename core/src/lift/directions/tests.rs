@@ -96,6 +96,29 @@ fn a_box_shows_its_frame_from_above() {
     assert!(up.is_some_and(|d| d.y > 0.0 && d.z > 0.0), "{up:?}");
 }
 
+/// A prism over five corners of which two are level with an axis: any view of some block shows the
+/// same, but only the isometric one at 30 degrees.
+#[test]
+fn an_isometric_view_is_known_by_its_angles() {
+    let turn = turned(
+        (1.0f64 / 3.0).sqrt().asin(),
+        std::f64::consts::FRAC_PI_4,
+        0.0,
+    );
+    let base = [[0.0, 0.0], [1.0, 0.0], [1.3, 0.8], [0.5, 1.4], [-0.2, 0.7]];
+    let base = base.map(|[x, z]| DVec3::new(x, 0.0, z));
+    let up = DVec3::Y * 0.9;
+    let lines: Vec<[DVec3; 2]> = (0..5)
+        .map(|i| (base[i], base[(i + 1) % 5]))
+        .flat_map(|(a, b)| [[a, b], [a + up, b + up], [a, a + up]])
+        .collect();
+    let found = Directions::estimate(&drawing(turn, &lines, &[])).unwrap();
+    assert!(
+        found.is_frame() && has_axes(&found, turn, 1e-9),
+        "{found:?}"
+    );
+}
+
 #[test]
 fn a_shaft_shows_its_axis() {
     let turn = turned(0.5, 0.8, 0.1);

@@ -75,7 +75,7 @@ fn rounded(points: Vec<DVec3>) -> Vec<DVec3> {
     points.into_iter().map(round).collect()
 }
 
-fn torus(major: f64, minor: f64) -> Surface {
+pub(super) fn torus(major: f64, minor: f64) -> Surface {
     Surface::Torus {
         center: AT,
         axis: axis(),

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use glam::{DVec2, DVec3};
 
 use super::evidence::{Evidence, Sight};
-use super::tests::{AT, evidence, free, holds, same};
+use super::tests::{AT, evidence, free, holds, same, torus};
 use super::{axes, judge, profile, sphere};
 use crate::lift::ring_torus::touching_gap;
 use crate::lift::{Camera, Surface};
@@ -127,4 +127,40 @@ fn where_an_outline_ends_the_torus_is_seen_edge_on() {
         .flat_map(|axis| profile::tori(&band, axis))
         .collect();
     assert!(holds(&found, &torus), "{found:?}");
+}
+
+/// Two circles are on tori of any tube; the lines of sight that graze it tell which.
+#[test]
+fn the_bulge_of_a_rounded_rim_shows_in_its_outline() {
+    for (low, high) in [(-1.2, 0.9), (-0.4, 1.9), (-1.9, 0.3)] {
+        let wanted = torus(0.6, 0.1);
+        let Surface::Torus { axis: n, .. } = wanted else {
+            unreachable!();
+        };
+        let (u, v) = n.any_orthonormal_pair();
+        let place = |turn: f64, angle: f64| {
+            let out = u * turn.cos() + v * turn.sin();
+            AT + out * (0.6 + 0.1 * angle.cos()) + n * (0.1 * angle.sin())
+        };
+        let circle = |angle: f64| (0..=24).map(move |i| place(f64::from(i) * TAU / 24.0, angle));
+        let mut rim = free(vec![circle(low).collect(), circle(high).collect()]);
+        rim.outlines = (0..16)
+            .map(|i| {
+                let angle = low + (high - low) * (0.3 + 0.025 * f64::from(i));
+                let p = place(0.4 * f64::from(i), angle);
+                let tangent = wanted.gradient(p).cross(DVec3::new(0.3, 0.2, 1.0));
+                let direction = tangent.normalize();
+                Sight {
+                    from: p - direction * 3.0,
+                    direction,
+                }
+            })
+            .collect();
+        let axes = axes::axes(&rim);
+        let found: Vec<Surface> = axes.iter().flat_map(|a| profile::tori(&rim, a)).collect();
+        assert_eq!(judge::best(&rim, found, 1e-5), None);
+        let found: Vec<Surface> = axes.iter().flat_map(|a| profile::bulges(&rim, a)).collect();
+        let best = judge::best(&rim, found, 1e-5);
+        assert!(best.is_some_and(|s| same(&s, &wanted, 1e-4)), "{best:?}");
+    }
 }

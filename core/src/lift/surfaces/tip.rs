@@ -59,3 +59,41 @@ pub(super) fn hidden(
         angle,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::{DVec2, DVec3};
+
+    use super::*;
+    use crate::Progress;
+    use crate::drawing::SurfaceKind;
+    use crate::lift::testing::{Scene, polygon, turned};
+    use crate::lift::{LiftOptions, lift};
+
+    /// A blind hole whose tip is seen from so far above that no outline of it is drawn.
+    #[test]
+    fn a_tip_that_is_not_seen_is_a_drills() {
+        for (view, half) in [(0.3, HALVES[0]), (1.1, HALVES[1])] {
+            let mut scene = Scene::new(turned(view, 0.2, 0.1));
+            let corners = polygon(&[[0.0, 0.0], [2.0, 0.0], [2.0, 1.5], [0.0, 1.5]]);
+            let [bottom, top] = scene.prism(&corners, DVec3::Z);
+            let at = DVec2::new(0.8, 0.7).extend(0.4);
+            let [low, high] = scene.wall(at, DVec3::Z * 0.6, 0.3);
+            scene.face(SurfaceKind::Plane, &[bottom]);
+            scene.face(SurfaceKind::Plane, &[top, high]);
+            scene.face(SurfaceKind::Cone, &[low]);
+            let (drawing, faces) = scene.finish();
+            let found = lift(&drawing, &faces, &LiftOptions::default(), Progress::none()).unwrap();
+            let Some(&Surface::Cone { apex, angle, .. }) = found.surfaces.last() else {
+                panic!("{:?}", found.surfaces);
+            };
+            assert_eq!(angle, half);
+            // Below the hole, not in it.
+            let ring = drawing.edges[faces.last().unwrap().loops[0][0].edge()].v[0];
+            let rim = drawing.edges[faces[faces.len() - 2].loops[1][0].edge()].v[0];
+            let place = |v: usize| drawing.vertices[v].extend(found.depths[v]);
+            let down = place(ring) - place(rim);
+            assert!((apex - place(ring)).dot(down) > 0.0);
+        }
+    }
+}
