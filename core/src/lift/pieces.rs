@@ -156,7 +156,8 @@ impl Pieces {
         }
     }
 
-    /// Lifts an exact drawing by one reading; also how many arcs and rows contradict it.
+    /// Lifts an exact drawing by one reading; also how many arcs, rows, flat edges and open planes speak
+    /// against it.
     fn exact<'a>(
         drawing: &'a Drawing,
         directions: &Directions,
@@ -164,24 +165,8 @@ impl Pieces {
     ) -> Result<(usize, Cow<'a, Drawing>, Self), LiftError> {
         let sheet = Sheet::new(drawing, faces, directions);
         let solved = solve::solve_parts(&sheet)?;
-        let wrong = solved.dropped() + oblique(&sheet) + flat(&sheet, &solved);
-        let wrong = wrong + open(&sheet, &solved);
-        if std::env::var_os("FF_DBG").is_some() {
-            eprintln!(
-                "reading {:?} dropped {} oblique {} flat {} planes {}",
-                directions
-                    .axes
-                    .iter()
-                    .map(|a| (a.direction, a.edges.len(), a.circles.len()))
-                    .collect::<Vec<_>>(),
-                solved.dropped(),
-                oblique(&sheet),
-                flat(&sheet, &solved),
-                (0..faces.len())
-                    .filter(|f| solved.plane(*f).is_some())
-                    .count()
-            );
-        } // PROBE
+        let contradicted = solved.dropped() + oblique(&sheet);
+        let wrong = contradicted + flat(&sheet, &solved) + open(&sheet, &solved);
         Ok((wrong, Cow::Borrowed(drawing), Self::of(&sheet, solved)))
     }
 
