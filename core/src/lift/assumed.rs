@@ -10,7 +10,7 @@ use super::rows::{Tag, Unknowns, along, beside_axes, normal_to};
 use super::rulings::rulings;
 use super::sheet::Sheet;
 use super::similar;
-use super::system::System;
+use super::system::{Row, System};
 use crate::drawing::{Curve2, SurfaceKind};
 
 /// A height and the same height as another curve gives it differ by less than this share.
@@ -151,30 +151,40 @@ fn frustums(sheet: &Sheet<'_>, _: &Unknowns, system: &mut System<Tag>) {
         }
         let far = |&(v, e): &(usize, usize)| {
             let [a, b] = sheet.drawing.edges[e].v;
-            if a == v { b } else { a }
+            [v, if a == v { b } else { a }]
         };
+        let leaving: Vec<[usize; 2]> = leaving.iter().map(far).collect();
         if !sheet.camera().is_parallel() {
-            let leaving: Vec<[usize; 2]> = leaving.iter().map(|l| [l.0, far(l)]).collect();
             central_frustum(sheet, face, normal, &leaving, system);
-            continue;
-        }
-        let share = (leaving.len() as f64).recip();
-        let at = |v: usize| sheet.drawing.vertices[v];
-        let mean: DVec2 = leaving.iter().map(|l| at(far(l)) - at(l.0)).sum::<DVec2>() * share;
-        let axis = sheet.axis(normal);
-        let drawn = axis.truncate();
-        let off = mean.perp_dot(drawn.normalize_or_zero()).abs();
-        let error = 2.0 * sheet.directions.precision
-            + sheet.directions.error * mean.length() / drawn.length();
-        if off < AGREE * error {
-            let rise = mean.dot(drawn) / drawn.length_squared() * axis.z;
-            let terms = leaving
-                .iter()
-                .flat_map(|l| [(far(l), share), (l.0, -share)]);
-            let weight = drawn.length() / (4.0 * error);
-            system.push(terms, rise, weight, Tag::Frustum { face });
+        } else if let Some(row) = centred(sheet, face, &leaving, normal) {
+            system.push(row.terms, row.rhs, row.weight, row.tag);
         }
     }
+}
+
+/// The row of a frustum's end that is centred along an axis, in a parallel projection, if it is drawn
+/// so: `leaving` are its corners, each with what its oblique edge leads to.
+pub(super) fn centred(
+    sheet: &Sheet<'_>,
+    face: usize,
+    leaving: &[[usize; 2]],
+    axis: usize,
+) -> Option<Row<Tag>> {
+    let share = (leaving.len() as f64).recip();
+    let at = |v: usize| sheet.drawing.vertices[v];
+    let mean: DVec2 = leaving.iter().map(|l| at(l[1]) - at(l[0])).sum::<DVec2>() * share;
+    let axis = sheet.axis(axis);
+    let drawn = axis.truncate();
+    let off = mean.perp_dot(drawn.normalize_or_zero()).abs();
+    let error =
+        2.0 * sheet.directions.precision + sheet.directions.error * mean.length() / drawn.length();
+    let terms = leaving.iter().flat_map(|l| [(l[1], share), (l[0], -share)]);
+    (off < AGREE * error).then(|| Row {
+        terms: terms.collect(),
+        rhs: mean.dot(drawn) / drawn.length_squared() * axis.z,
+        weight: drawn.length() / (4.0 * error),
+        tag: Tag::Frustum { face },
+    })
 }
 
 /// The same in a central projection, where the far vertices have to lie in a plane parallel to the

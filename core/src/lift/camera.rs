@@ -84,6 +84,12 @@ impl Camera {
         }
     }
 
+    /// The point that is drawn at `p` in the plane of normal `n` through `origin`.
+    pub(crate) fn on_plane(&self, p: DVec2, n: DVec3, origin: DVec3) -> DVec3 {
+        let (from, ray) = self.ray(p);
+        from + ray * (n.dot(origin - from) / n.dot(ray))
+    }
+
     /// The heights of two points of which one part of a drawing, moved along the lines of sight, has
     /// these.
     pub(crate) fn apart(&self, from: f64, to: f64) -> Relation {

@@ -39,8 +39,7 @@ pub(crate) fn circle_through(
     let w = normal.cross(u);
     let origin = camera.unit(middle);
     let unfold = |p: DVec2| {
-        let (from, ray) = camera.ray(p);
-        let d = from + ray * (normal.dot(origin - from) / normal.dot(ray)) - origin;
+        let d = camera.on_plane(p, normal, origin) - origin;
         DVec2::new(d.dot(u), d.dot(w))
     };
     let (center, radius, gain) = circle_fit(points.iter().map(|&p| unfold(p)))?;

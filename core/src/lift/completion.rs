@@ -188,10 +188,8 @@ fn side(sheet: &Sheet<'_>, heights: &Heights, surface: &Surface, face: usize) ->
         let (k, _) = sheet.circles[e]?;
         let edge = &sheet.drawing.edges[e];
         let middle = *edge.points.get(edge.points.len() / 2)?;
-        let n = sheet.axis(k);
-        let (from, ray) = sheet.camera().ray(middle);
-        let t = n.dot(place(edge.v[0]) - from) / n.dot(ray);
-        heights.known[edge.v[0]].then_some((middle, from + ray * t))
+        let on_circle = |start| sheet.camera().on_plane(middle, sheet.axis(k), start);
+        heights.known[edge.v[0]].then(|| (middle, on_circle(place(edge.v[0]))))
     });
     let slopes = corners.chain(middles).map(|(drawn, p)| {
         let (_, ray) = sheet.camera().ray(drawn);

@@ -1,7 +1,6 @@
 //! Frustums whose ends follow no axes: drafted and lofted prisms of any outline.
 
-use glam::DVec2;
-
+use super::assumed::centred;
 use super::directions::AGREE;
 use super::rows::{Tag, Unknowns, normal_to};
 use super::sheet::Sheet;
@@ -17,26 +16,12 @@ pub(super) fn ends(sheet: &Sheet<'_>, unknowns: &Unknowns, system: &mut System<T
         let Some((p, leaving)) = unknowns.plane(face).zip(similar(sheet, face)) else {
             continue;
         };
-        let share = (leaving.len() as f64).recip();
-        let at = |v: usize| sheet.drawing.vertices[v];
-        let mean: DVec2 = leaving.iter().map(|l| at(l[1]) - at(l[0])).sum::<DVec2>() * share;
-        let error = |k: usize| {
-            let drawn = sheet.axis(k).truncate().length();
-            2.0 * sheet.directions.precision + sheet.directions.error * mean.length() / drawn
-        };
-        let follows = |k: &usize| {
-            let drawn = sheet.axis(*k).truncate();
-            mean.perp_dot(drawn.normalize_or_zero()).abs() < AGREE * error(*k)
-        };
-        let axes: Vec<usize> = (0..sheet.directions.axes.len()).filter(follows).collect();
-        let &[k] = axes.as_slice() else { continue };
-        let axis = sheet.axis(k);
-        let drawn = axis.truncate();
-        normal_to(sheet, face, p, axis, Tag::Frustum { face }, system);
-        let terms = leaving.iter().flat_map(|l| [(l[1], share), (l[0], -share)]);
-        let rise = mean.dot(drawn) / drawn.length_squared() * axis.z;
-        let weight = drawn.length() / (4.0 * error(k));
-        system.push(terms, rise, weight, Tag::Frustum { face });
+        let axes = 0..sheet.directions.axes.len();
+        let mut along = axes.filter_map(|k| Some((k, centred(sheet, face, &leaving, k)?)));
+        if let (Some((k, row)), None) = (along.next(), along.next()) {
+            normal_to(sheet, face, p, sheet.axis(k), row.tag, system);
+            system.push(row.terms, row.rhs, row.weight, row.tag);
+        }
     }
 }
 

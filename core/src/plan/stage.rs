@@ -88,7 +88,8 @@ pub fn plan(drawing: &Drawing, faces: &[Face], lift: &Lift, options: &PlanOption
         .collect();
 
     let measured = measured(drawing, faces, lift, &view, &lifted)?;
-    notices.extend((0..faces.len()).filter_map(|f| assumed_tip(faces, &uses, f)));
+    let tips = (0..faces.len()).filter(|&f| matches!(measured[f].support, Support::Cone { .. }));
+    notices.extend(tips.filter_map(|f| assumed_tip(faces, &uses, f)));
     let mut smooth = smooth_pairs(drawing, faces, &uses, &measured);
     if lift.regular.is_some() {
         // Halves of one cylinder have one surface already, and others are different ones.

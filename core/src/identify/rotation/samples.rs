@@ -2,7 +2,24 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::drawing::{Curve2, Drawing, Edge};
+use super::{HandScorer, TripleScorer, Triples};
+use crate::Progress;
+use crate::drawing::{Curve2, Drawing, Edge, Graph};
+use crate::lift::directions::Directions;
+
+/// What the hand-made scorer says of a drawing's triples.
+pub(super) fn hand_scores(drawing: &Drawing, graph: &Graph, triples: &Triples) -> Vec<f64> {
+    let directions = Directions::estimate(drawing).ok();
+    let scorer = HandScorer::default();
+    let scores = scorer.score(
+        drawing,
+        graph,
+        triples,
+        directions.as_ref(),
+        Progress::none(),
+    );
+    scores.unwrap().log_odds
+}
 
 /// A drawing of 3D points joined by straight edges, seen from a generic direction.
 pub(super) fn wireframe(points: &[DVec3], edges: &[[usize; 2]]) -> Drawing {

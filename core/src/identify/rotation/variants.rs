@@ -126,26 +126,15 @@ const HANDLE: f64 = 1.5;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Progress;
     use crate::drawing::Drawing;
-    use crate::identify::rotation::samples;
-    use crate::identify::rotation::{HandScorer, TripleScorer, Triples};
-    use crate::lift::directions::Directions;
+    use crate::identify::rotation::{Triples, samples};
 
     /// Calls `look` with the readings of a drawing.
     fn read(drawing: &Drawing, look: impl Fn(&Graph, Vec<Variant>)) {
         let graph = Graph::new(drawing);
         let triples = Triples::new(&graph);
-        let scores = HandScorer::default()
-            .score(
-                drawing,
-                &graph,
-                &triples,
-                Directions::estimate(drawing).ok().as_ref(),
-                Progress::none(),
-            )
-            .unwrap();
-        let field = Field::new(&graph, &triples, &scores.log_odds);
+        let scores = samples::hand_scores(drawing, &graph, &triples);
+        let field = Field::new(&graph, &triples, &scores);
         let system = field.decode();
         let doubts = Doubts::new(&field, &system);
         look(&graph, variants(&field, system, &doubts));

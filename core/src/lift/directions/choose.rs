@@ -291,19 +291,14 @@ fn reading(
 /// no other view shows them so but by chance, and the less chance the better they are drawn.
 fn isometric_reading(evidence: &Evidence) -> Option<Reading> {
     let frame = isometric();
-    let level = |c: &Cluster| {
+    let error_of = |c: &Cluster| {
         let error = c.error(evidence.precision);
         let off = (c.direction.y.abs() - 0.5).abs();
-        (off < AGREE * error).then(|| (CHANCE / error).ln().max(0.0))
+        (off < AGREE * error && error < CHANCE).then_some(error)
     };
-    let surprise: f64 = evidence.clusters.iter().filter_map(level).sum();
-    let error = evidence.clusters.iter().filter(|c| level(c).is_some());
-    let error = error
-        .map(|c| c.error(evidence.precision))
-        .fold(f64::INFINITY, f64::min);
-    if surprise == 0.0 {
-        return None;
-    }
+    let errors: Vec<f64> = evidence.clusters.iter().filter_map(error_of).collect();
+    let error = errors.iter().copied().reduce(f64::min)?;
+    let surprise: f64 = errors.iter().map(|e| (CHANCE / e).ln()).sum();
     let found = Hypothesis { frame, error };
     let followers = Followers::new(evidence, &found);
     let (axes, votes, _) = followed(evidence, &found, &followers);

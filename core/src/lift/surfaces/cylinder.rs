@@ -162,10 +162,8 @@ fn boundary_points(sheet: &Sheet<'_>, heights: &Heights, face: usize) -> Vec<DVe
             }),
         };
         if let Some(n) = normal {
-            points.extend(inner.iter().map(|p| {
-                let (from, ray) = sheet.camera().ray(*p);
-                from + ray * (n.dot(start - from) / n.dot(ray))
-            }));
+            let place = |p: &DVec2| sheet.camera().on_plane(*p, n, start);
+            points.extend(inner.iter().map(place));
         }
     }
     points

@@ -169,10 +169,7 @@ fn bound(sheet: &Sheet<'_>, heights: &Heights, edge: usize, beside: Surface) -> 
     }
     let drawn: Vec<DVec2> = thinned(&e.points).map(|i| e.points[i]).collect();
     let planar = |normal: DVec3| {
-        let place = |p: &DVec2| {
-            let (from, ray) = sheet.camera().ray(*p);
-            from + ray * (normal.dot(ends[0] - from) / normal.dot(ray))
-        };
+        let place = |p: &DVec2| sheet.camera().on_plane(*p, normal, ends[0]);
         let points: Vec<DVec3> = drawn.iter().map(place).collect();
         let ring = Ring::through(&points, Some(normal), tolerance);
         Bound {

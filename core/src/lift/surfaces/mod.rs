@@ -141,15 +141,11 @@ fn round(
             judge::best(&evidence, candidates, ROUNDS[0] * sheet.size)
         } else {
             judge::best(&evidence, candidates, tolerance).or_else(|| {
-                let may_bulge = kind == SurfaceKind::Torus && !evidence.outlines.is_empty();
-                let axes = if may_bulge {
-                    axes::axes(&evidence)
-                } else {
-                    Vec::new()
-                };
-                let bulges = axes
-                    .iter()
-                    .flat_map(|axis| profile::bulges(&evidence, axis));
+                if kind != SurfaceKind::Torus {
+                    return None;
+                }
+                let axes = axes::axes(&evidence);
+                let bulges = axes.iter().flat_map(|a| profile::bulges(&evidence, a));
                 judge::best(&evidence, bulges.collect(), tolerance)
             })
         };

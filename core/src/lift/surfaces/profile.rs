@@ -92,13 +92,16 @@ pub(super) fn tori(evidence: &Evidence, axis: &Axis) -> Vec<Surface> {
         .collect()
 }
 
-/// Tori around an axis through two of its circles alone, from flat to nearly whole tubes: the outlines
-/// tell which.
+/// Tori around an axis through two of its circles alone, from flat to nearly whole tubes; none without
+/// outlines, which tell the one from the other.
 pub(super) fn bulges(evidence: &Evidence, axis: &Axis) -> Vec<Surface> {
     /// Number of tubes on either side of the upright one.
     const EACH: i32 = 5;
     let points: Vec<DVec2> = evidence.points().map(|p| axis.profile(p).into()).collect();
-    let Some((&first, rest)) = points.split_first() else {
+    let Some((&first, rest)) = points
+        .split_first()
+        .filter(|_| !evidence.outlines.is_empty())
+    else {
         return Vec::new();
     };
     let far = rest.iter().copied().fold(first, |best, p| {

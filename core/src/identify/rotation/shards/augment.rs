@@ -144,11 +144,8 @@ impl Random {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Progress;
     use crate::drawing::Graph;
-    use crate::identify::rotation::samples;
-    use crate::identify::rotation::{HandScorer, TripleScorer, Triples};
-    use crate::lift::directions::Directions;
+    use crate::identify::rotation::{Triples, samples};
 
     const ALL: Augment = Augment {
         mirror: true,
@@ -162,17 +159,7 @@ mod tests {
     fn scores(drawing: &Drawing) -> Vec<f64> {
         let graph = Graph::new(drawing);
         let triples = Triples::new(&graph);
-        let scorer = HandScorer::default();
-        let mut scores = scorer
-            .score(
-                drawing,
-                &graph,
-                &triples,
-                Directions::estimate(drawing).ok().as_ref(),
-                Progress::none(),
-            )
-            .unwrap()
-            .log_odds;
+        let mut scores = samples::hand_scores(drawing, &graph, &triples);
         scores.sort_by(f64::total_cmp);
         scores
     }
