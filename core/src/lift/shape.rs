@@ -101,7 +101,8 @@ impl Surface {
             } => {
                 let d = p - center;
                 let out = d.reject_from_normalized(axis).length() - major;
-                out.hypot(axis.dot(d)) - minor
+                let up = axis.dot(d);
+                (out * out + up * up).sqrt() - minor
             }
             Self::Unknown => 0.0,
         }

@@ -17,6 +17,9 @@ const STAND_IN: f64 = 8e-5;
 /// A candidate this close, relative to the drawing's size, is as good as the drawing.
 const EXACT: f64 = 2e-6;
 
+/// A candidate this far off, relative to the drawing's size, is no start for refining.
+const FAR: f64 = 0.05;
+
 /// So many of the best candidates are refined.
 const RIVALS: usize = 4;
 
@@ -26,13 +29,27 @@ pub(super) fn best(
     candidates: Vec<Surface>,
     tolerance: f64,
 ) -> Option<Surface> {
-    let mut judged: Vec<(f64, Surface)> = candidates
+    // Outlines cost most, and can only add to the misfit of points.
+    let mut points: Vec<(f64, Surface)> = candidates
         .into_iter()
-        .map(|surface| (misfit(evidence, &surface), surface))
-        .filter(|(off, _)| *off < 0.05 * evidence.size)
+        .map(|surface| (points_off(evidence, &surface), surface))
+        .filter(|(off, _)| *off < FAR * evidence.size)
         .collect();
-    judged.sort_by(|a, b| a.0.total_cmp(&b.0));
-    judged.truncate(RIVALS);
+    points.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut judged: Vec<(f64, Surface)> = Vec::new();
+    for (least, surface) in points {
+        let last = judged.get(RIVALS - 1).map(|j| j.0);
+        let most = last.unwrap_or(FAR * evidence.size);
+        if least >= most {
+            break;
+        }
+        let off = misfit_below(evidence, &surface, most);
+        if off < most {
+            let at = judged.partition_point(|(other, _)| *other <= off);
+            judged.insert(at, (off, surface));
+            judged.truncate(RIVALS);
+        }
+    }
     judged
         .into_iter()
         .filter_map(|(off, surface)| settled(evidence, surface, off, tolerance))
@@ -75,13 +92,9 @@ pub(super) fn stand_in(evidence: &Evidence, candidates: Vec<Surface>) -> Option<
     if evidence.bounds.len() < 2 || !rings.all(|b| b.ring.is_some()) {
         return None;
     }
-    let off = |surface: &Surface| {
-        let distances = evidence.points().map(|p| surface.distance(p).abs());
-        distances.fold(0.0, f64::max)
-    };
     candidates
         .into_iter()
-        .filter(|surface| off(surface) <= STAND_IN * evidence.size)
+        .filter(|surface| points_off(evidence, surface) <= STAND_IN * evidence.size)
         .min_by(|a, b| {
             let cost = |s: &Surface| misfit(evidence, s) + kinks(evidence, s);
             cost(a).total_cmp(&cost(b))
@@ -92,31 +105,50 @@ pub(super) fn stand_in(evidence: &Evidence, candidates: Vec<Surface>) -> Option<
 pub(super) fn residuals(evidence: &Evidence, surface: &Surface, out: &mut Vec<f64>) {
     out.clear();
     out.extend(evidence.points().map(|p| surface.distance(p)));
+    out.extend(sights(evidence, surface));
+}
+
+/// Residuals of lines of sight. The outlines of other surfaces are straight, and their ends say it
+/// all.
+fn sights<'a>(evidence: &'a Evidence, surface: &'a Surface) -> impl Iterator<Item = f64> + 'a {
     let outlines = evidence.outlines.iter();
-    match *surface {
-        Surface::Torus { .. } => {
-            out.extend(outlines.map(|line| touching_gap(surface, line.from, line.direction)));
-        }
-        Surface::Sphere { center, radius } => {
-            out.extend(outlines.map(|line| line.distance(center) - radius));
-        }
-        // The outlines of others are straight, and their ends say it all.
-        _ => {}
-    }
+    outlines.map_while(|line| match *surface {
+        Surface::Torus { .. } => Some(touching_gap(surface, line.from, line.direction)),
+        Surface::Sphere { center, radius } => Some(line.distance(center) - radius),
+        _ => None,
+    })
+}
+
+/// Largest distance of a known point.
+fn points_off(evidence: &Evidence, surface: &Surface) -> f64 {
+    let distances = evidence.points().map(|p| surface.distance(p));
+    distances.fold(0.0, largest)
 }
 
 /// Largest residual.
 pub(super) fn misfit(evidence: &Evidence, surface: &Surface) -> f64 {
-    let mut all = Vec::new();
-    residuals(evidence, surface, &mut all);
-    let worst = |m: f64, r: &f64| {
-        if r.is_nan() {
-            f64::INFINITY
-        } else {
-            m.max(r.abs())
+    misfit_below(evidence, surface, f64::INFINITY)
+}
+
+/// The same, of lines of sight only up to the first that is not below a limit.
+fn misfit_below(evidence: &Evidence, surface: &Surface, limit: f64) -> f64 {
+    let mut most = points_off(evidence, surface);
+    for residual in sights(evidence, surface) {
+        if most >= limit {
+            break;
         }
-    };
-    all.iter().fold(0.0, worst)
+        most = largest(most, residual);
+    }
+    most
+}
+
+/// The larger magnitude; what is no number is infinite.
+fn largest(most: f64, residual: f64) -> f64 {
+    if residual.is_nan() {
+        f64::INFINITY
+    } else {
+        most.max(residual.abs())
+    }
 }
 
 /// What boundaries cost where the surface does not touch its neighbour.

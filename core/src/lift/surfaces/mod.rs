@@ -64,11 +64,22 @@ pub(super) fn surfaces_of(
         .collect();
     let mut wholes = wholes::surfaces(sheet);
     wholes.retain(|whole| whole.iter().any(|&f| asked(f)));
+    // What was known, and how good a fit was asked for, when a whole was last tried.
+    let mut tried = vec![(usize::MAX, 0.0); wholes.len()];
     for tolerance in ROUNDS {
-        for whole in &wholes {
-            if whole.iter().any(|&f| known[f] == Surface::Unknown) {
-                let drawn = ERRORS * sheet.directions.precision;
-                let tolerance = (tolerance * sheet.size).max(drawn);
+        for (whole, tried) in wholes.iter().zip(&mut tried) {
+            if whole.iter().all(|&f| known[f] != Surface::Unknown) {
+                continue;
+            }
+            let tolerance = if sheet.faces[whole[0]].kind == SurfaceKind::Other {
+                // Only what fits as if it were drawn for it.
+                ROUNDS[0] * sheet.size
+            } else {
+                (tolerance * sheet.size).max(ERRORS * sheet.directions.precision)
+            };
+            let found = known.iter().filter(|s| **s != Surface::Unknown).count();
+            if *tried != (found, tolerance) {
+                *tried = (found, tolerance);
                 round(sheet, heights, whole, tolerance, &mut known);
             }
         }
@@ -136,19 +147,14 @@ fn round(
             SurfaceKind::Other => any(&evidence),
             _ => continue,
         };
-        let found = if kind == SurfaceKind::Other {
-            // Only what fits as if it were drawn for it.
-            judge::best(&evidence, candidates, ROUNDS[0] * sheet.size)
-        } else {
-            judge::best(&evidence, candidates, tolerance).or_else(|| {
-                if kind != SurfaceKind::Torus {
-                    return None;
-                }
-                let axes = axes::axes(&evidence);
-                let bulges = axes.iter().flat_map(|a| profile::bulges(&evidence, a));
-                judge::best(&evidence, bulges.collect(), tolerance)
-            })
-        };
+        let found = judge::best(&evidence, candidates, tolerance).or_else(|| {
+            if kind != SurfaceKind::Torus {
+                return None;
+            }
+            let axes = axes::axes(&evidence);
+            let bulges = axes.iter().flat_map(|a| profile::bulges(&evidence, a));
+            judge::best(&evidence, bulges.collect(), tolerance)
+        });
         if let Some(surface) = found {
             part.iter().for_each(|&f| known[f] = surface);
         }
