@@ -11,6 +11,7 @@ pub mod dataset;
 mod diagnose;
 mod ellipse;
 mod error;
+mod fold;
 mod format;
 mod graph;
 mod grid;

@@ -4,8 +4,21 @@ use glam::{DMat3, DVec3};
 
 use super::Surface;
 use super::ring_torus;
+use crate::drawing::SurfaceKind;
 
 impl Surface {
+    /// The kind of surface, if it is known.
+    pub(crate) fn kind(&self) -> Option<SurfaceKind> {
+        match self {
+            Self::Unknown => None,
+            Self::Plane { .. } => Some(SurfaceKind::Plane),
+            Self::Cylinder { .. } => Some(SurfaceKind::Cylinder),
+            Self::Cone { .. } => Some(SurfaceKind::Cone),
+            Self::Sphere { .. } => Some(SurfaceKind::Sphere),
+            Self::Torus { .. } => Some(SurfaceKind::Torus),
+        }
+    }
+
     /// A point that places the surface: of a plane or an axis, a cone's apex, a centre; zero of an
     /// unknown surface.
     pub(crate) fn origin(&self) -> DVec3 {

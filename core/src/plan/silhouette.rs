@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::drawing::{Drawing, Edge};
+use crate::drawing::Edge;
 
 use super::support::Support;
 use super::view::View;
@@ -14,9 +14,6 @@ const ACROSS: f64 = 0.05;
 /// The same at the ends of a curved one and along it: a line of sight that is off by d leaves a
 /// surface of radius r by an angle of sqrt(2 d / r).
 const CURVED: f64 = 0.2;
-
-/// Sine of the angle within which edges go on smoothly into each other in the drawing.
-const SMOOTH: f64 = 0.25;
 
 /// Whether the drawn edge between two faces of one surface is the surface's outline.
 pub(super) fn is_outline(surface: &Support, edge: &Edge, ends: [DVec3; 2], view: &View) -> bool {
@@ -81,35 +78,4 @@ pub(super) fn plane_of(surface: &Support, ends: [DVec3; 2], view: &View) -> Opti
         }
         _ => None,
     }
-}
-
-/// Whether an edge between two surfaces that say nothing is drawn like an outline: it leaves the
-/// edges at its ends by the tangent, as a fold does, or meets no other edge.
-pub(super) fn is_fold(drawing: &Drawing, edge: usize) -> bool {
-    let [a, b] = drawing.edges[edge].v;
-    let at = |v: usize| {
-        let others = drawing.edges.iter().enumerate();
-        let mut others = others.filter(move |(e, other)| *e != edge && other.v.contains(&v));
-        let own = tangent(&drawing.edges[edge], drawing, v);
-        let mut count = 0;
-        let smooth = others.all(|(_, other)| {
-            count += 1;
-            tangent(other, drawing, v).perp_dot(own).abs() < SMOOTH
-        });
-        smooth && (count >= 2 || (count == 0 && a == b))
-    };
-    at(a) && at(b)
-}
-
-/// Unit tangent of an edge at one of its vertices.
-fn tangent(edge: &Edge, drawing: &Drawing, v: usize) -> DVec2 {
-    let points = &edge.points;
-    let inner = if edge.v[0] == v {
-        points.get(1)
-    } else {
-        points.len().checked_sub(2).and_then(|i| points.get(i))
-    };
-    inner.map_or(DVec2::ZERO, |p| {
-        (*p - drawing.vertices[v]).normalize_or_zero()
-    })
 }

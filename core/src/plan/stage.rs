@@ -116,18 +116,18 @@ pub fn plan(drawing: &Drawing, faces: &[Face], lift: &Lift, options: &PlanOption
         .enumerate()
         .map(|(e, ([a, b], edge))| match supports[a.face] {
             Support::Unknown => {
-                supports[b.face] == Support::Unknown && silhouette::is_fold(drawing, e)
+                supports[b.face] == Support::Unknown && drawing.is_fold(e)
             }
             surface => {
                 let ends = edge.v.map(|v| lifted[v]);
                 // What stands in for a surface of another kind has outlines of its own: its parts
                 // were taken together because only such edges part them.
-                let other = |u: &Use| faces[u.face].kind == SurfaceKind::Other;
+                let other = |u: &Use| stands_in(faces[u.face].kind, &surface);
                 snapped.of_face[a.face] == snapped.of_face[b.face]
                     && (silhouette::is_outline(&surface, edge, ends, &view)
                         || (other(a)
                             && other(b)
-                            && (!edge.is_straight() || silhouette::is_fold(drawing, e))))
+                            && (!edge.is_straight() || drawing.is_fold(e))))
             }
         })
         .collect();
@@ -139,7 +139,8 @@ pub fn plan(drawing: &Drawing, faces: &[Face], lift: &Lift, options: &PlanOption
             let ends = edge.v.map(|v| lifted[v]);
             let surface = &supports[a.face];
             // What stands in for another surface is seen edge-on elsewhere.
-            (*silhouette && silhouette::is_outline(surface, edge, ends, &view))
+            let own = !stands_in(faces[a.face].kind, surface);
+            (*silhouette && own && silhouette::is_outline(surface, edge, ends, &view))
                 .then(|| silhouette::plane_of(surface, ends, &view))?
         })
         .collect();
@@ -180,17 +181,18 @@ pub fn plan(drawing: &Drawing, faces: &[Face], lift: &Lift, options: &PlanOption
     };
     let loops: Vec<_> = faces.iter().map(|f| f.loops.clone()).collect();
     for (f, (face, support)) in faces.iter().zip(&supports).enumerate() {
-        let name = match support {
-            Support::Plane { .. } | Support::Unknown => continue,
-            Support::Cylinder { .. } => "cylinder",
-            Support::Cone { .. } => "cone",
-            Support::Sphere { .. } => "sphere",
-            Support::Torus { .. } => "torus",
+        let Some(built) = support.kind() else {
+            continue;
         };
-        if face.kind == SurfaceKind::Other {
+        if stands_in(face.kind, support) {
+            let said = match face.kind {
+                SurfaceKind::Other => "of another kind".to_owned(),
+                kind => format!("taken for a {}", kind.name()),
+            };
             notices.push(format!(
-                "face {}, of another kind, is built as a {name}",
-                f + 1
+                "face {}, {said}, is built as a {}",
+                f + 1,
+                built.name()
             ));
         }
     }
@@ -301,6 +303,11 @@ fn assumed_tip(faces: &[Face], uses: &[[Use; 2]], face: usize) -> Option<String>
     })
 }
 
+/// Whether a surface is there in the place of one of another kind.
+fn stands_in(kind: SurfaceKind, support: &Support) -> bool {
+    kind == SurfaceKind::Other || support.kind().is_some_and(|own| own != kind)
+}
+
 /// Pairs of faces that an outline may part: straight, unless the surface is a sphere or a torus, or
 /// one that stands in for another kind.
 fn smooth_pairs(
@@ -313,7 +320,7 @@ fn smooth_pairs(
         let support = &measured[face].support;
         matches!(support, Support::Sphere { .. } | Support::Torus { .. })
     };
-    let other = |u: &Use| faces[u.face].kind == SurfaceKind::Other;
+    let other = |u: &Use| stands_in(faces[u.face].kind, &measured[u.face].support);
     uses.iter()
         .zip(&drawing.edges)
         .filter(|([a, b], edge)| {

@@ -156,8 +156,9 @@ impl Look {
             && walk.len() == 2
             && !one_ellipse
             && corners(walk).all(|(a, b)| {
-                tangent(drawing, a.mate())
-                    .perp_dot(tangent(drawing, b))
+                drawing
+                    .tangent(a.mate())
+                    .perp_dot(drawing.tangent(b))
                     .abs()
                     < VAGUE_CUSP
             });
@@ -256,7 +257,7 @@ fn cusp(drawing: &Drawing, from: CoEdge, to: CoEdge) -> bool {
     if a.is_straight() && b.is_straight() {
         return false;
     }
-    let (back, ahead) = (tangent(drawing, from.mate()), tangent(drawing, to));
+    let (back, ahead) = (drawing.tangent(from.mate()), drawing.tangent(to));
     let vague = [a, b].iter().any(|e| matches!(e.curve, Curve2::Polyline));
     let limit = if vague { VAGUE_CUSP } else { CUSP };
     back.dot(ahead) > 0.0 && back.perp_dot(ahead).abs() < limit
@@ -276,31 +277,6 @@ fn silhouette(drawing: &Drawing, from: CoEdge, to: CoEdge) -> Option<usize> {
         std::cmp::Ordering::Greater => Some(from.edge()),
         std::cmp::Ordering::Less => Some(to.edge()),
         std::cmp::Ordering::Equal => None,
-    }
-}
-
-/// Unit tangent with which a co-edge leaves its origin.
-fn tangent(drawing: &Drawing, c: CoEdge) -> DVec2 {
-    let edge = &drawing.edges[c.edge()];
-    let n = edge.points.len();
-    let at = |k: usize| edge.points[if c.is_reversed() { n - 1 - k } else { k }];
-    match edge.curve {
-        Curve2::Line => (at(n - 1) - at(0)).normalize_or_zero(),
-        Curve2::Ellipse(arc) => {
-            let t = arc.start + if c.is_reversed() { arc.sweep } else { 0.0 };
-            let sense = arc.sweep.signum() * if c.is_reversed() { -1.0 } else { 1.0 };
-            arc.derivative(t).normalize_or_zero() * sense
-        }
-        Curve2::Polyline => {
-            // Of the parabola through three points, its parameter the polyline's length.
-            let (a, b, c) = (at(0), at(1), at(2.min(n - 1)));
-            let (h, k) = (a.distance(b), b.distance(c));
-            if h <= 0.0 || k <= 0.0 {
-                return (c - a).normalize_or_zero();
-            }
-            let (first, second) = ((b - a) / h, (c - b) / k);
-            (first - (second - first) * (h / (h + k))).normalize_or_zero()
-        }
     }
 }
 

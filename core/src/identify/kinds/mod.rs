@@ -15,3 +15,8 @@ use look::Look;
 pub(crate) fn kind_of(drawing: &Drawing, walk: &[CoEdge]) -> SurfaceKind {
     Look::new(drawing, walk).kind()
 }
+
+/// Whether all edges of a loop lie on one ellipse and go around it once.
+pub(crate) fn is_ring(drawing: &Drawing, walk: &[CoEdge]) -> bool {
+    Look::new(drawing, walk).ring
+}

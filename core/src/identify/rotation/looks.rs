@@ -7,7 +7,7 @@
 use super::group::Grouping;
 use super::{LoopKinds, Triples};
 use crate::drawing::{CoEdge, Curve2, Drawing, Graph, SurfaceKind};
-use crate::identify::kinds::{kinds_of, ruled_out};
+use crate::identify::kinds::{is_ring, kinds_of, ruled_out};
 
 /// Least probability at which a whole circle may bound a plane: an outline of a ball does not.
 const FLAT: f64 = 0.1;
@@ -80,9 +80,14 @@ impl Looks {
         let kinds = shares
             .iter()
             .zip(&twin)
-            .map(|(s, twin)| match twin {
-                Some(_) => SurfaceKind::Plane,
-                None => likeliest(&[s], &[]),
+            .zip(walks)
+            .map(|((s, twin), walk)| match (twin, likeliest(&[s], &[])) {
+                (Some(_), _) => SurfaceKind::Plane,
+                // An end is likelier than a tip that no line shows.
+                (None, SurfaceKind::Cone) if flat(s) >= FLAT && is_ring(drawing, walk) => {
+                    SurfaceKind::Plane
+                }
+                (None, kind) => kind,
             })
             .collect();
         Self {

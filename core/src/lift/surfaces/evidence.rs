@@ -4,6 +4,7 @@ use glam::{DVec2, DVec3};
 
 use super::flat::best_plane;
 use super::ring::Ring;
+use super::wholes;
 use crate::drawing::Curve2;
 use crate::lift::heights::Heights;
 use crate::lift::sheet::Sheet;
@@ -49,6 +50,37 @@ impl Sight {
         (p - self.from)
             .reject_from_normalized(self.direction)
             .length()
+    }
+
+    /// Distance from an axis, a line through `origin`.
+    pub(super) fn apart(&self, origin: DVec3, axis: DVec3) -> f64 {
+        let between = (self.from - origin).reject_from_normalized(axis);
+        let across = self.direction.reject_from_normalized(axis);
+        match across.try_normalize() {
+            Some(across) => between.reject_from_normalized(across).length(),
+            None => between.length(),
+        }
+    }
+
+    /// Distance from a cone where it is least, negative if the line enters it; infinite if it comes
+    /// ever nearer, as steep lines do.
+    pub(super) fn cone_gap(&self, apex: DVec3, axis: DVec3, angle: f64) -> f64 {
+        let (sin, cos) = angle.sin_cos();
+        let climb = self.direction.dot(axis);
+        let across = 1.0 - climb * climb;
+        // With s from the point nearest to the axis, rho² = apart² + across s²; the distance
+        // rho cos - height sin is least where rho grows by the slope per s.
+        let slope = climb * sin / cos;
+        let rest = across - slope * slope;
+        if rest <= 0.0 {
+            return f64::INFINITY;
+        }
+        let apart = self.apart(apex, axis);
+        let s = slope * apart / (across * rest).sqrt();
+        let from = self.from - apex;
+        let nearest = -(from - axis * from.dot(axis)).dot(self.direction) / across;
+        let height = from.dot(axis) + climb * (nearest + s);
+        (apart * apart + across * s * s).sqrt() * cos - height * sin
     }
 }
 
@@ -111,6 +143,10 @@ impl Evidence {
             match outside {
                 // Between two parts: an outline.
                 None => evidence.add_outline(sheet, heights, e),
+                // The other part is not taken for one.
+                Some(&beside) if wholes::is_outline(sheet, e, [part[0], beside]) => {
+                    evidence.add_outline(sheet, heights, e);
+                }
                 Some(&beside) if heights.are_known(&sheet.drawing.edges[e].v) => {
                     evidence
                         .bounds

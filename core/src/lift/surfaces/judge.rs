@@ -108,14 +108,19 @@ pub(super) fn residuals(evidence: &Evidence, surface: &Surface, out: &mut Vec<f6
     out.extend(sights(evidence, surface));
 }
 
-/// Residuals of lines of sight. The outlines of other surfaces are straight, and their ends say it
-/// all.
+/// Residuals of lines of sight: how far each is from touching the surface.
 fn sights<'a>(evidence: &'a Evidence, surface: &'a Surface) -> impl Iterator<Item = f64> + 'a {
     let outlines = evidence.outlines.iter();
     outlines.map_while(|line| match *surface {
         Surface::Torus { .. } => Some(touching_gap(surface, line.from, line.direction)),
         Surface::Sphere { center, radius } => Some(line.distance(center) - radius),
-        _ => None,
+        Surface::Cylinder {
+            origin,
+            axis,
+            radius,
+        } => Some(line.apart(origin, axis) - radius),
+        Surface::Cone { apex, axis, angle } => Some(line.cone_gap(apex, axis, angle)),
+        Surface::Plane { .. } | Surface::Unknown => None,
     })
 }
 

@@ -71,7 +71,7 @@ pub(super) fn surfaces_of(
             if whole.iter().all(|&f| known[f] != Surface::Unknown) {
                 continue;
             }
-            let tolerance = if sheet.faces[whole[0]].kind == SurfaceKind::Other {
+            let tolerance = if wholes::kind(sheet, whole) == SurfaceKind::Other {
                 // Only what fits as if it were drawn for it.
                 ROUNDS[0] * sheet.size
             } else {
@@ -88,7 +88,7 @@ pub(super) fn surfaces_of(
         if whole.iter().any(|&f| known[f] != Surface::Unknown) {
             continue;
         }
-        let instead = match sheet.faces[whole[0]].kind {
+        let instead = match wholes::kind(sheet, whole) {
             SurfaceKind::Other => {
                 let evidence = Evidence::new(sheet, heights, whole, &known);
                 judge::stand_in(&evidence, any(&evidence))
@@ -96,11 +96,32 @@ pub(super) fn surfaces_of(
             SurfaceKind::Cone => tip::hidden(sheet, heights, whole, &known),
             _ => None,
         };
+        let instead = instead.or_else(|| another(sheet, heights, whole, &known));
         whole
             .iter()
             .for_each(|&f| known[f] = instead.unwrap_or(Surface::Unknown));
     }
     known
+}
+
+/// A surface of another kind than was said, if it fits as if the drawing were made for it: a torus is
+/// easily taken for a sphere.
+fn another(
+    sheet: &Sheet<'_>,
+    heights: &Heights,
+    whole: &[usize],
+    known: &[Surface],
+) -> Option<Surface> {
+    let evidence = Evidence::new(sheet, heights, whole, known);
+    let rings = evidence.rings().count();
+    // One circle is on surfaces of all kinds.
+    if rings == evidence.bounds.len() && rings + evidence.outlines.len() < 2 {
+        return None;
+    }
+    let axes = axes::axes(&evidence);
+    let bulges = axes.iter().flat_map(|a| profile::bulges(&evidence, a));
+    let candidates = any(&evidence).into_iter().chain(bulges).collect();
+    judge::best(&evidence, candidates, ROUNDS[0] * sheet.size)
 }
 
 /// Candidates for a surface of another kind: it may be one of ours in another form, as a spline.
@@ -123,7 +144,7 @@ fn round(
     tolerance: f64,
     known: &mut [Surface],
 ) {
-    let kind = sheet.faces[whole[0]].kind;
+    let kind = wholes::kind(sheet, whole);
     let singles = (whole.len() > 1).then(|| whole.chunks(1)).into_iter();
     for part in std::iter::once(whole).chain(singles.flatten()) {
         if part.iter().any(|&f| known[f] != Surface::Unknown) {

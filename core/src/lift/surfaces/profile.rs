@@ -9,6 +9,9 @@ use super::evidence::Evidence;
 use crate::lift::Surface;
 use crate::lift::circle::circle_fit;
 
+/// A tube of a larger radius, relative to the drawing's size, is as straight as the drawing's errors.
+const STRAIGHT: f64 = 100.0;
+
 /// Profiles narrower than this, relative to the drawing's size, are one circle drawn with errors.
 const ONE_CIRCLE: f64 = 3e-5;
 
@@ -81,7 +84,7 @@ pub(super) fn tori(evidence: &Evidence, axis: &Axis) -> Vec<Surface> {
     circles
         .into_iter()
         .filter(|(center, minor)| {
-            minor.is_finite() && *minor > 1e-5 * evidence.size && center.x > 1e-5 * evidence.size
+            (1e-5..STRAIGHT).contains(&(minor / evidence.size)) && center.x > 1e-5 * evidence.size
         })
         .map(|(center, minor)| Surface::Torus {
             center: axis.origin + axis.direction * center.y,

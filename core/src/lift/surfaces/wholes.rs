@@ -18,7 +18,8 @@ pub(in crate::lift) fn touching(sheet: &Sheet<'_>) -> Vec<Vec<usize>> {
 /// is none, and the outlines of a cone are straight; and by circles that they share.
 pub(super) fn surfaces(sheet: &Sheet<'_>) -> Vec<Vec<usize>> {
     let may_be_outline = |kind: SurfaceKind, edge: usize| match kind {
-        SurfaceKind::Cone => sheet.is_straight(edge),
+        // A lone curve that is no circle is an outline, and then the surface is no cone.
+        SurfaceKind::Cone => sheet.is_straight(edge) || is_lone(sheet, edge),
         SurfaceKind::Sphere | SurfaceKind::Torus => {
             !sheet.is_straight(edge) && sheet.circles[edge].is_none()
         }
@@ -26,6 +27,36 @@ pub(super) fn surfaces(sheet: &Sheet<'_>) -> Vec<Vec<usize>> {
         _ => false,
     };
     wholes(sheet, may_be_outline, |kind| kind != SurfaceKind::Cylinder)
+}
+
+/// Whether an edge is closed, meets no other one and is no circle around a known axis.
+fn is_lone(sheet: &Sheet<'_>, edge: usize) -> bool {
+    let [a, b] = sheet.drawing.edges[edge].v;
+    a == b && sheet.edges_at(a).len() == 1 && sheet.circles[edge].is_none()
+}
+
+/// The kind of a whole; another one if its parts are said to be of several.
+pub(super) fn kind(sheet: &Sheet<'_>, whole: &[usize]) -> SurfaceKind {
+    let first = sheet.faces[whole[0]].kind;
+    if whole.iter().all(|&f| sheet.faces[f].kind == first) {
+        first
+    } else {
+        SurfaceKind::Other
+    }
+}
+
+/// Whether a curve is an outline whatever the faces beside it are: they are parts of one surface then.
+fn is_fold(sheet: &Sheet<'_>, edge: usize) -> bool {
+    let [a, b] = sheet.drawing.edges[edge].v;
+    !sheet.is_straight(edge) && sheet.circles[edge].is_none() && a != b && sheet.drawing.is_fold(edge)
+}
+
+/// Whether an edge is an outline of two faces that are not taken for one. Two spheres may meet in a
+/// circle around any axis.
+pub(super) fn is_outline(sheet: &Sheet<'_>, edge: usize, [a, b]: [usize; 2]) -> bool {
+    let [kind, other] = [a, b].map(|f| sheet.faces[f].kind);
+    let lone = kind == other && kind != SurfaceKind::Sphere && is_lone(sheet, edge);
+    !sheet.is_planar(b) && (lone || is_fold(sheet, edge))
 }
 
 fn wholes(
@@ -38,9 +69,13 @@ fn wholes(
     let mut circles: Vec<(usize, usize)> = Vec::new();
     for edge in 0..sheet.drawing.edges.len() {
         if let [a, b] = *sheet.neighbours(edge)
-            && kind(a) == kind(b)
             && !sheet.is_planar(a)
-            && joins(kind(a), edge)
+            && !sheet.is_planar(b)
+            && if kind(a) == kind(b) {
+                joins(kind(a), edge)
+            } else {
+                counts(kind(a)) && counts(kind(b)) && is_fold(sheet, edge)
+            }
         {
             parts.join(a, b);
         }
