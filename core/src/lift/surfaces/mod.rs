@@ -33,8 +33,9 @@ pub(super) use flat::best_plane;
 pub(super) use truth::true_surfaces;
 pub(super) use wholes::touching;
 
-/// Rounds in which surfaces help their neighbours; the first ones ask for a better fit.
-const ROUNDS: [f64; 4] = [2e-5, 1e-4, 3e-4, 3e-4];
+/// Rounds in which surfaces help their neighbours; the first ones ask for a better fit. Parts by
+/// themselves have to fit as well as the whole did not in the round before: a small part fits anything.
+const ROUNDS: [f64; 5] = [2e-5, 1e-4, 3e-4, 3e-4, 3e-4];
 
 /// A surface may be as far off as this many errors of a drawn point in any case.
 const ERRORS: f64 = 20.0;
@@ -65,24 +66,27 @@ pub(super) fn surfaces_of(
     let mut wholes = wholes::surfaces(sheet);
     wholes.retain(|whole| whole.iter().any(|&f| asked(f)));
     // What was known, and how good a fit was asked for, when a whole was last tried.
-    let mut tried = vec![(usize::MAX, 0.0); wholes.len()];
+    let mut tried = vec![(usize::MAX, [None; 2]); wholes.len()];
+    let mut single = None;
     for tolerance in ROUNDS {
         for (whole, tried) in wholes.iter().zip(&mut tried) {
             if whole.iter().all(|&f| known[f] != Surface::Unknown) {
                 continue;
             }
-            let tolerance = if wholes::kind(sheet, whole) == SurfaceKind::Other {
+            let least = ERRORS * sheet.directions.precision;
+            let within = |share: f64| match wholes::kind(sheet, whole) {
                 // Only what fits as if it were drawn for it.
-                ROUNDS[0] * sheet.size
-            } else {
-                (tolerance * sheet.size).max(ERRORS * sheet.directions.precision)
+                SurfaceKind::Other => ROUNDS[0] * sheet.size,
+                _ => (share * sheet.size).max(least),
             };
+            let limits = [Some(within(tolerance)), single.map(within)];
             let found = known.iter().filter(|s| **s != Surface::Unknown).count();
-            if *tried != (found, tolerance) {
-                *tried = (found, tolerance);
-                round(sheet, heights, whole, tolerance, &mut known);
+            if *tried != (found, limits) {
+                *tried = (found, limits);
+                round(sheet, heights, whole, limits, &mut known);
             }
         }
+        single = Some(tolerance);
     }
     for whole in &wholes {
         if whole.iter().any(|&f| known[f] != Surface::Unknown) {
@@ -136,17 +140,20 @@ fn any(evidence: &Evidence) -> Vec<Surface> {
     found
 }
 
-/// Tries a whole, then each of its faces that are not known yet.
+/// Tries a whole, then each of its faces that are not known yet, each within a limit of its own.
 fn round(
     sheet: &Sheet<'_>,
     heights: &Heights,
     whole: &[usize],
-    tolerance: f64,
+    limits: [Option<f64>; 2],
     known: &mut [Surface],
 ) {
     let kind = wholes::kind(sheet, whole);
     let singles = (whole.len() > 1).then(|| whole.chunks(1)).into_iter();
     for part in std::iter::once(whole).chain(singles.flatten()) {
+        let Some(tolerance) = limits[usize::from(part.len() < whole.len())] else {
+            continue;
+        };
         if part.iter().any(|&f| known[f] != Surface::Unknown) {
             continue;
         }
