@@ -115,7 +115,10 @@ std::vector<gp_Pnt2d> Chart::trace(const Segment &segment, int steps) const {
     return segment.curve->Value(segment.first + (segment.last - segment.first) * share);
   };
   for (int i = 0; i <= steps; ++i) {
-    gp_Pnt2d next = place(point(i));
+    // The place before is near, which spares a search over all of a spline.
+    gp_Pnt2d next = kind_ == SurfaceType::Filled && i > 0
+                        ? projector_->NextValueOfUV(places.back(), point(i), Precision::Confusion())
+                        : place(point(i));
     if (!places.empty() && is_periodic()) {
       const gp_Pnt2d &before = places.back();
       next.SetX(before.X() + wrapped(next.X() - before.X()));
