@@ -114,11 +114,14 @@ double deviation(const Face &face, const Topology &topology,
   for (const Loop &loop : face.loops) {
     for (const std::int32_t coedge : loop.coedges) {
       const Segment segment = segment_of(topology.edges[edge_index(coedge)]);
+      gp_Pnt2d place;
       for (int i = 0; i <= kProbes; ++i) {
         const double share = static_cast<double>(i) / kProbes;
         const gp_Pnt point =
             segment.curve->Value(segment.first + (segment.last - segment.first) * share);
-        projector.ValueOfUV(point, Precision::Confusion());
+        // Only the first place of an edge is searched for on all of the surface.
+        place = i == 0 ? projector.ValueOfUV(point, Precision::Confusion())
+                       : projector.NextValueOfUV(place, point, Precision::Confusion());
         largest = std::max(largest, projector.Gap());
       }
     }

@@ -1,6 +1,6 @@
 //! Faces that may be parts of one surface.
 
-use crate::drawing::SurfaceKind;
+use crate::drawing::{Curve2, SurfaceKind};
 use crate::lift::sheet::Sheet;
 use crate::sets::Sets;
 
@@ -46,9 +46,13 @@ pub(super) fn kind(sheet: &Sheet<'_>, whole: &[usize]) -> SurfaceKind {
 }
 
 /// Whether a curve is an outline whatever the faces beside it are: they are parts of one surface then.
+/// An outline leaves a circle by its tangent, and so does the circle's own arc: it is no ellipse.
 fn is_fold(sheet: &Sheet<'_>, edge: usize) -> bool {
     let [a, b] = sheet.drawing.edges[edge].v;
-    !sheet.is_straight(edge) && sheet.circles[edge].is_none() && a != b && sheet.drawing.is_fold(edge)
+    matches!(sheet.drawing.edges[edge].curve, Curve2::Polyline)
+        && sheet.circles[edge].is_none()
+        && a != b
+        && sheet.drawing.is_fold(edge)
 }
 
 /// Whether an edge is an outline of two faces that are not taken for one. Two spheres may meet in a
