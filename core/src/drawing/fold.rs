@@ -40,7 +40,8 @@ impl Drawing {
         let at = |v: usize| {
             let leaving = |e: usize| self.tangent(CoEdge::new(e, self.edges[e].v[0] != v));
             let own = leaving(edge);
-            let others = (0..self.edges.len()).filter(|&e| e != edge && self.edges[e].v.contains(&v));
+            let others =
+                (0..self.edges.len()).filter(|&e| e != edge && self.edges[e].v.contains(&v));
             let mut count = 0;
             let mut smooth = true;
             for e in others {
@@ -50,5 +51,56 @@ impl Drawing {
             smooth && (count >= 2 || (count == 0 && a == b))
         };
         at(a) && at(b)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+    use super::*;
+    use crate::drawing::Edge;
+
+    /// Two circles, cut in two by the ends of an outline, and a circle that one of them meets.
+    #[test]
+    fn an_outline_leaves_by_the_tangent() {
+        let arc = |center: DVec2, from: f64, to: f64| -> Vec<DVec2> {
+            let at = |k: i32| from + (to - from) * f64::from(k) / 16.0;
+            let point = |k: i32| center + DVec2::from_angle(at(k));
+            (0..=16).map(point).collect()
+        };
+        let (low, high) = (DVec2::X, DVec2::new(1.3, 2.0));
+        let bow = |k: i32| {
+            let t = f64::from(k) / 16.0;
+            low.lerp(high, t) - DVec2::X * (0.3 * t * (1.0 - t))
+        };
+        let center = high - DVec2::X;
+        let curves = [
+            ([0, 1], arc(DVec2::ZERO, 0.0, FRAC_PI_2)),
+            ([1, 0], arc(DVec2::ZERO, FRAC_PI_2, TAU)),
+            ([0, 2], (0..=16).map(bow).collect()),
+            ([2, 3], arc(center, 0.0, PI)),
+            ([3, 2], arc(center, PI, TAU)),
+            ([1, 1], arc(DVec2::new(-1.0, 1.0), 0.0, TAU)),
+        ];
+        let edges: Vec<Edge> = curves
+            .into_iter()
+            .map(|(v, points)| Edge {
+                v,
+                curve: Curve2::recognise(&points),
+                points,
+            })
+            .collect();
+        let vertices = vec![low, DVec2::Y, high, center - DVec2::X];
+        let drawing = Drawing::orthographic(vertices, edges);
+        let ahead = drawing.tangent(CoEdge::new(2, false));
+        assert!(ahead.x.abs() < 0.05, "{ahead}");
+        let back = drawing.tangent(CoEdge::new(0, true));
+        assert!(back.distance(DVec2::X) < 1e-6, "{back}");
+        let far = drawing.tangent(CoEdge::new(2, true));
+        assert!(far.x.abs() < 0.25, "{far}");
+        assert!(drawing.is_fold(2));
+        // At its other end a circle is met at right angles.
+        assert!(!drawing.is_fold(0));
     }
 }

@@ -34,8 +34,14 @@ pub(super) struct Tie {
     pub(super) face: usize,
 }
 
-/// Ties for those of the loose groups that known surfaces place.
-pub(super) fn ties(sheet: &Sheet<'_>, heights: &Heights, groups: &[Vec<usize>]) -> Vec<Tie> {
+/// Ties for those of the loose groups that known surfaces place. With `any_kind` also by surfaces of
+/// other kinds than was said, which what is known of a boundary so far may fit by chance.
+pub(super) fn ties(
+    sheet: &Sheet<'_>,
+    heights: &Heights,
+    groups: &[Vec<usize>],
+    any_kind: bool,
+) -> Vec<Tie> {
     // Only faces of loose vertices can tie them, and what is beside these faces may tell their
     // surface.
     let mut near = vec![false; sheet.faces.len()];
@@ -48,7 +54,7 @@ pub(super) fn ties(sheet: &Sheet<'_>, heights: &Heights, groups: &[Vec<usize>]) 
                 .for_each(|&f| near[f] = true);
         }
     }
-    let mut surfaces = surfaces_of(sheet, heights, |face| near[face]);
+    let mut surfaces = surfaces_of(sheet, heights, any_kind, |face| near[face]);
     fillets::fill(sheet, heights, &mut surfaces);
     groups
         .iter()

@@ -7,6 +7,16 @@ use super::ring_torus;
 use crate::drawing::SurfaceKind;
 
 impl Surface {
+    /// Whether its lengths and angles are those of a surface.
+    pub(crate) fn is_sound(&self) -> bool {
+        match *self {
+            Self::Plane { .. } | Self::Unknown => true,
+            Self::Cylinder { radius, .. } | Self::Sphere { radius, .. } => radius > 0.0,
+            Self::Cone { angle, .. } => angle > 0.0 && angle < std::f64::consts::FRAC_PI_2,
+            Self::Torus { major, minor, .. } => major > 0.0 && minor > 0.0,
+        }
+    }
+
     /// The kind of surface, if it is known.
     pub(crate) fn kind(&self) -> Option<SurfaceKind> {
         match self {

@@ -240,11 +240,15 @@ fn complete(
             planes: (0..sheet.faces.len()).map(plane).collect(),
             known,
         };
-        let ties = completion::ties(sheet, &heights, &groups[1..]);
-        if ties.is_empty() {
+        let ties = |any_kind| completion::ties(sheet, &heights, &groups[1..], any_kind);
+        let mut found = ties(false);
+        if found.is_empty() {
+            found = ties(true);
+        }
+        if found.is_empty() {
             break;
         }
-        for tie in ties {
+        for tie in found {
             let (weight, tag) = (tie.error.recip(), Tag::Revolved { face: tie.face });
             let row = sheet.camera().apart(x[main], tie.height);
             let terms = [(tie.vertex, row.to), (main, -row.from)];

@@ -129,6 +129,18 @@ fn a_hole_becomes_a_cylinder() {
 }
 
 #[test]
+fn a_surface_taken_for_another_kind_is_the_one_that_fits() {
+    let (drawing, mut faces) =
+        block_with_hole(view(), DVec3::new(2.0, 1.5, 0.8), DVec2::new(0.8, 0.7), 0.3);
+    for face in faces.iter_mut().filter(|f| f.kind == SurfaceKind::Cylinder) {
+        face.kind = SurfaceKind::Torus;
+    }
+    let found = lifted(&drawing, &faces);
+    assert!(error(&drawing, &found) < 1e-9);
+    assert_eq!(planes_and_cylinders(&found), (6, 2));
+}
+
+#[test]
 fn a_stepped_shaft_needs_no_frame() {
     let (drawing, faces) = shaft(view(), &[(1.0, 0.5), (0.6, 2.0), (0.8, 0.3)]);
     let found = lifted(&drawing, &faces);

@@ -115,9 +115,7 @@ pub fn plan(drawing: &Drawing, faces: &[Face], lift: &Lift, options: &PlanOption
         .zip(&drawing.edges)
         .enumerate()
         .map(|(e, ([a, b], edge))| match supports[a.face] {
-            Support::Unknown => {
-                supports[b.face] == Support::Unknown && drawing.is_fold(e)
-            }
+            Support::Unknown => supports[b.face] == Support::Unknown && drawing.is_fold(e),
             surface => {
                 let ends = edge.v.map(|v| lifted[v]);
                 // What stands in for a surface of another kind has outlines of its own: its parts
@@ -125,9 +123,7 @@ pub fn plan(drawing: &Drawing, faces: &[Face], lift: &Lift, options: &PlanOption
                 let other = |u: &Use| stands_in(faces[u.face].kind, &surface);
                 snapped.of_face[a.face] == snapped.of_face[b.face]
                     && (silhouette::is_outline(&surface, edge, ends, &view)
-                        || (other(a)
-                            && other(b)
-                            && (!edge.is_straight() || drawing.is_fold(e))))
+                        || (other(a) && other(b) && (!edge.is_straight() || drawing.is_fold(e))))
             }
         })
         .collect();
@@ -139,8 +135,7 @@ pub fn plan(drawing: &Drawing, faces: &[Face], lift: &Lift, options: &PlanOption
             let ends = edge.v.map(|v| lifted[v]);
             let surface = &supports[a.face];
             // What stands in for another surface is seen edge-on elsewhere.
-            let own = !stands_in(faces[a.face].kind, surface);
-            (*silhouette && own && silhouette::is_outline(surface, edge, ends, &view))
+            (*silhouette && silhouette::is_outline(surface, edge, ends, &view))
                 .then(|| silhouette::plane_of(surface, ends, &view))?
         })
         .collect();

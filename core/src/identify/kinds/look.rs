@@ -156,11 +156,7 @@ impl Look {
             && walk.len() == 2
             && !one_ellipse
             && corners(walk).all(|(a, b)| {
-                drawing
-                    .tangent(a.mate())
-                    .perp_dot(drawing.tangent(b))
-                    .abs()
-                    < VAGUE_CUSP
+                drawing.tangent(a.mate()).perp_dot(drawing.tangent(b)).abs() < VAGUE_CUSP
             });
         look
     }

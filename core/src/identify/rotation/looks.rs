@@ -162,7 +162,12 @@ fn likeliest(rows: &[&Shares], without: &[SurfaceKind]) -> SurfaceKind {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::PI;
+
+    use glam::DVec2;
+
     use super::*;
+    use crate::drawing::Edge;
 
     fn shares(list: &[(SurfaceKind, f64)]) -> Shares {
         SurfaceKind::ALL.map(|k| list.iter().find(|l| l.0 == k).map_or(0.0, |l| l.1))
@@ -201,5 +206,43 @@ mod tests {
         // A dimple in a plane: its circle's other loop is in the plane.
         let dimple = grouping(&[&[0, 2], &[1], &[3]], &[false; 3]);
         assert_ne!(looks.of_faces(&dimple)[2], Plane);
+    }
+
+    /// Always of one opinion.
+    struct Told(Shares);
+
+    impl LoopKinds for Told {
+        fn kinds(&self, _: &Graph, _: &Triples, loops: &[Vec<CoEdge>]) -> Vec<Shares> {
+            vec![self.0; loops.len()]
+        }
+    }
+
+    /// The end of a pin, its circle cut in two by the outlines.
+    #[test]
+    fn an_end_is_likelier_than_a_tip_that_no_line_shows() {
+        use SurfaceKind::{Cone, Cylinder, Plane};
+        let half = |from: f64| -> Edge {
+            let at = |k: i32| DVec2::from_angle(from + PI * f64::from(k) / 24.0);
+            let points: Vec<DVec2> = (0..=24).map(|k| at(k) * DVec2::new(1.0, 0.4)).collect();
+            Edge {
+                v: if from == 0.0 { [0, 1] } else { [1, 0] },
+                curve: Curve2::recognise(&points),
+                points,
+            }
+        };
+        let drawing =
+            Drawing::orthographic(vec![DVec2::X, DVec2::NEG_X], vec![half(0.0), half(PI)]);
+        let graph = Graph::new(&drawing);
+        let triples = Triples::new(&graph);
+        let end = vec![CoEdge::new(0, false), CoEdge::new(1, false)];
+        let looks = |list: &[(SurfaceKind, f64)], walk: &[CoEdge]| {
+            let told = Told(shares(list));
+            let walks = [walk.to_vec()];
+            Looks::new(&drawing, &graph, &triples, &walks, Some(&told), true).kinds[0]
+        };
+        assert_eq!(looks(&[(Plane, 0.2), (Cone, 0.8)], &end), Plane);
+        assert_eq!(looks(&[(Plane, 0.02), (Cone, 0.98)], &end), Cone);
+        assert_eq!(looks(&[(Plane, 0.2), (Cylinder, 0.8)], &end), Cylinder);
+        assert_eq!(looks(&[(Plane, 0.2), (Cone, 0.8)], &end[..1]), Cone);
     }
 }

@@ -56,10 +56,10 @@ impl Sight {
     pub(super) fn apart(&self, origin: DVec3, axis: DVec3) -> f64 {
         let between = (self.from - origin).reject_from_normalized(axis);
         let across = self.direction.reject_from_normalized(axis);
-        match across.try_normalize() {
-            Some(across) => between.reject_from_normalized(across).length(),
-            None => between.length(),
+        if across.length() < 1e-9 {
+            return between.length();
         }
+        between.reject_from(across).length()
     }
 
     /// Distance from a cone where it is least, negative if the line enters it; infinite if it comes
@@ -92,6 +92,8 @@ pub(super) struct Evidence {
     pub(super) bounds: Vec<Bound>,
     /// Lines of sight to the drawn points of the outlines: they touch the surface.
     pub(super) outlines: Vec<Sight>,
+    /// Whether some outline is bent, as none of a cylinder or cone is.
+    pub(super) bent: bool,
     /// Vertices on outlines, where the surface is seen edge-on, with their lines of sight.
     pub(super) outline_ends: Vec<(DVec3, Sight)>,
     /// Circles that outlines are drawn as, centre and radius: of a sphere in a parallel projection.
@@ -133,6 +135,7 @@ impl Evidence {
             vertices: corners.iter().map(|&v| vertex(sheet, heights, v)).collect(),
             bounds: Vec::new(),
             outlines: Vec::new(),
+            bent: false,
             outline_ends: Vec::new(),
             discs: Vec::new(),
             directions: sheet.directions.axes.iter().map(|a| a.direction).collect(),
@@ -161,6 +164,7 @@ impl Evidence {
     fn add_outline(&mut self, sheet: &Sheet<'_>, heights: &Heights, edge: usize) {
         let e = &sheet.drawing.edges[edge];
         let sight = |p: DVec2| Sight::new(sheet.camera(), p);
+        self.bent |= !sheet.is_straight(edge);
         self.outlines
             .extend(thinned(&e.points).map(|i| sight(e.points[i])));
         let ends = e.v.into_iter().filter(|&v| heights.known[v]);

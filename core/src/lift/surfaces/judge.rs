@@ -29,6 +29,16 @@ pub(super) fn best(
     candidates: Vec<Surface>,
     tolerance: f64,
 ) -> Option<Surface> {
+    best_of(evidence, candidates, tolerance, &Freedom::EACH)
+}
+
+/// The same, refined with some freedoms only.
+pub(super) fn best_of(
+    evidence: &Evidence,
+    candidates: Vec<Surface>,
+    tolerance: f64,
+    freedoms: &[Freedom],
+) -> Option<Surface> {
     // Outlines cost most, and can only add to the misfit of points.
     let mut points: Vec<(f64, Surface)> = candidates
         .into_iter()
@@ -52,7 +62,7 @@ pub(super) fn best(
     }
     judged
         .into_iter()
-        .filter_map(|(off, surface)| settled(evidence, surface, off, tolerance))
+        .filter_map(|(off, surface)| settled(evidence, surface, off, tolerance, freedoms))
         .min_by(|a, b| {
             let cost = |(off, surface): &(f64, Surface)| off + kinks(evidence, surface);
             cost(a).total_cmp(&cost(b))
@@ -66,15 +76,16 @@ fn settled(
     surface: Surface,
     off: f64,
     tolerance: f64,
+    freedoms: &[Freedom],
 ) -> Option<(f64, Surface)> {
     let mut best = (off, surface);
     if off <= EXACT * evidence.size {
         return Some(best);
     }
-    for freedom in [Freedom::AlongAxis, Freedom::Shifts, Freedom::All] {
+    for &freedom in freedoms {
         let better = refined(evidence, surface, freedom);
         let new = misfit(evidence, &better);
-        if new < best.0 {
+        if new < best.0 && better.is_sound() {
             best = (new, better);
         }
         if best.0 <= tolerance {
@@ -86,7 +97,7 @@ fn settled(
 
 /// A surface between whole circles only that does not agree with the outlines, if none does: it
 /// passes through all known points, and is the one that outlines and smooth neighbours speak for
-/// most. A band between two circles is better closed by it than by a surface of no kind.
+/// most; a cylinder or cone, which builds most easily, need not have curved outlines. A band between two circles is better closed by it than by a surface of no kind.
 pub(super) fn stand_in(evidence: &Evidence, candidates: Vec<Surface>) -> Option<Surface> {
     let mut rings = evidence.bounds.iter();
     if evidence.bounds.len() < 2 || !rings.all(|b| b.ring.is_some()) {
@@ -96,7 +107,11 @@ pub(super) fn stand_in(evidence: &Evidence, candidates: Vec<Surface>) -> Option<
         .into_iter()
         .filter(|surface| points_off(evidence, surface) <= STAND_IN * evidence.size)
         .min_by(|a, b| {
-            let cost = |s: &Surface| misfit(evidence, s) + kinks(evidence, s);
+            let off = |s: &Surface| match s {
+                Surface::Cylinder { .. } | Surface::Cone { .. } => points_off(evidence, s),
+                _ => misfit(evidence, s),
+            };
+            let cost = |s: &Surface| off(s) + kinks(evidence, s);
             cost(a).total_cmp(&cost(b))
         })
 }
@@ -108,7 +123,8 @@ pub(super) fn residuals(evidence: &Evidence, surface: &Surface, out: &mut Vec<f6
     out.extend(sights(evidence, surface));
 }
 
-/// Residuals of lines of sight: how far each is from touching the surface.
+/// Residuals of lines of sight: how far each is from touching the surface. Of straight outlines the ends
+/// say it all.
 fn sights<'a>(evidence: &'a Evidence, surface: &'a Surface) -> impl Iterator<Item = f64> + 'a {
     let outlines = evidence.outlines.iter();
     outlines.map_while(|line| match *surface {
@@ -118,9 +134,11 @@ fn sights<'a>(evidence: &'a Evidence, surface: &'a Surface) -> impl Iterator<Ite
             origin,
             axis,
             radius,
-        } => Some(line.apart(origin, axis) - radius),
-        Surface::Cone { apex, axis, angle } => Some(line.cone_gap(apex, axis, angle)),
-        Surface::Plane { .. } | Surface::Unknown => None,
+        } if evidence.bent => Some(line.apart(origin, axis) - radius),
+        Surface::Cone { apex, axis, angle } if evidence.bent => {
+            Some(line.cone_gap(apex, axis, angle))
+        }
+        _ => None,
     })
 }
 

@@ -30,26 +30,31 @@ use crate::drawing::SurfaceKind;
 pub(super) use cylinder::touching as touching_circle;
 use evidence::Evidence;
 pub(super) use flat::best_plane;
+use refine::Freedom;
 pub(super) use truth::true_surfaces;
 pub(super) use wholes::touching;
 
-/// Rounds in which surfaces help their neighbours; the first ones ask for a better fit. Parts by
-/// themselves have to fit as well as the whole did not in the round before: a small part fits anything.
-const ROUNDS: [f64; 5] = [2e-5, 1e-4, 3e-4, 3e-4, 3e-4];
+/// Rounds in which surfaces help their neighbours; the first ones ask for a better fit.
+const ROUNDS: [f64; 4] = [2e-5, 1e-4, 3e-4, 3e-4];
+
+/// Parts of a cone by themselves keep the axis that others give in the rounds before this one: a small
+/// part fits any axis, and should not before the whole has been tried.
+const TURNING: usize = 2;
 
 /// A surface may be as far off as this many errors of a drawn point in any case.
 const ERRORS: f64 = 20.0;
 
 /// The surface of every face, as far as known depths tell.
 pub(super) fn surfaces(sheet: &Sheet<'_>, heights: &Heights) -> Vec<Surface> {
-    surfaces_of(sheet, heights, |_| true)
+    surfaces_of(sheet, heights, true, |_| true)
 }
 
 /// The same of planes, cylinders and the wholes of which some face is asked for; the others stay
-/// unknown.
+/// unknown, and so do those that only a surface of another kind fits, unless `any_kind`.
 pub(super) fn surfaces_of(
     sheet: &Sheet<'_>,
     heights: &Heights,
+    any_kind: bool,
     asked: impl Fn(usize) -> bool,
 ) -> Vec<Surface> {
     let mut known: Vec<Surface> = (0..sheet.faces.len())
@@ -66,27 +71,26 @@ pub(super) fn surfaces_of(
     let mut wholes = wholes::surfaces(sheet);
     wholes.retain(|whole| whole.iter().any(|&f| asked(f)));
     // What was known, and how good a fit was asked for, when a whole was last tried.
-    let mut tried = vec![(usize::MAX, [None; 2]); wholes.len()];
-    let mut single = None;
-    for tolerance in ROUNDS {
+    let mut tried = vec![(usize::MAX, 0.0, false); wholes.len()];
+    for (i, share) in ROUNDS.into_iter().enumerate() {
+        let turning = i >= TURNING;
         for (whole, tried) in wholes.iter().zip(&mut tried) {
             if whole.iter().all(|&f| known[f] != Surface::Unknown) {
                 continue;
             }
-            let least = ERRORS * sheet.directions.precision;
-            let within = |share: f64| match wholes::kind(sheet, whole) {
-                // Only what fits as if it were drawn for it.
-                SurfaceKind::Other => ROUNDS[0] * sheet.size,
-                _ => (share * sheet.size).max(least),
+            // Only what fits as if it were drawn for it.
+            let other = |&f: &usize| sheet.faces[f].kind == SurfaceKind::Other;
+            let share = if whole.iter().all(other) {
+                ROUNDS[0]
+            } else {
+                share
             };
-            let limits = [Some(within(tolerance)), single.map(within)];
             let found = known.iter().filter(|s| **s != Surface::Unknown).count();
-            if *tried != (found, limits) {
-                *tried = (found, limits);
-                round(sheet, heights, whole, limits, &mut known);
+            if *tried != (found, share, turning) {
+                *tried = (found, share, turning);
+                round(sheet, heights, whole, share, turning, &mut known);
             }
         }
-        single = Some(tolerance);
     }
     for whole in &wholes {
         if whole.iter().any(|&f| known[f] != Surface::Unknown) {
@@ -100,7 +104,12 @@ pub(super) fn surfaces_of(
             SurfaceKind::Cone => tip::hidden(sheet, heights, whole, &known),
             _ => None,
         };
-        let instead = instead.or_else(|| another(sheet, heights, whole, &known));
+        let other = || {
+            any_kind
+                .then(|| another(sheet, heights, whole, &known))
+                .flatten()
+        };
+        let instead = instead.or_else(other);
         whole
             .iter()
             .for_each(|&f| known[f] = instead.unwrap_or(Surface::Unknown));
@@ -140,20 +149,18 @@ fn any(evidence: &Evidence) -> Vec<Surface> {
     found
 }
 
-/// Tries a whole, then each of its faces that are not known yet, each within a limit of its own.
+/// Tries a whole, then each of its faces that are not known yet, within a share of the drawing's size;
+/// faces by themselves may have an axis of their own only if `turning`.
 fn round(
     sheet: &Sheet<'_>,
     heights: &Heights,
     whole: &[usize],
-    limits: [Option<f64>; 2],
+    share: f64,
+    turning: bool,
     known: &mut [Surface],
 ) {
-    let kind = wholes::kind(sheet, whole);
     let singles = (whole.len() > 1).then(|| whole.chunks(1)).into_iter();
     for part in std::iter::once(whole).chain(singles.flatten()) {
-        let Some(tolerance) = limits[usize::from(part.len() < whole.len())] else {
-            continue;
-        };
         if part.iter().any(|&f| known[f] != Surface::Unknown) {
             continue;
         }
@@ -161,6 +168,11 @@ fn round(
         if evidence.vertices.is_empty() {
             continue;
         }
+        let kind = wholes::kind(sheet, part);
+        let tolerance = match kind {
+            SurfaceKind::Other => ROUNDS[0] * sheet.size,
+            _ => (share * sheet.size).max(ERRORS * sheet.directions.precision),
+        };
         let candidates = match kind {
             SurfaceKind::Sphere => sphere::spheres(&evidence),
             SurfaceKind::Cone => axes::axes(&evidence)
@@ -175,13 +187,16 @@ fn round(
             SurfaceKind::Other => any(&evidence),
             _ => continue,
         };
-        let found = judge::best(&evidence, candidates, tolerance).or_else(|| {
+        let fixed = kind == SurfaceKind::Cone && part.len() < whole.len() && !turning;
+        let freedoms = &Freedom::EACH[..if fixed { 2 } else { 3 }];
+        let best = |candidates| judge::best_of(&evidence, candidates, tolerance, freedoms);
+        let found = best(candidates).or_else(|| {
             if kind != SurfaceKind::Torus {
                 return None;
             }
             let axes = axes::axes(&evidence);
             let bulges = axes.iter().flat_map(|a| profile::bulges(&evidence, a));
-            judge::best(&evidence, bulges.collect(), tolerance)
+            best(bulges.collect())
         });
         if let Some(surface) = found {
             part.iter().for_each(|&f| known[f] = surface);

@@ -13,7 +13,7 @@ use crate::lift::Surface;
 
 pub(super) const AT: DVec3 = DVec3::new(0.2, -0.1, 0.3);
 
-fn axis() -> DVec3 {
+pub(super) fn axis() -> DVec3 {
     DVec3::new(0.3, 0.8, 0.5).normalize()
 }
 
@@ -58,6 +58,7 @@ pub(super) fn evidence(curves: Vec<(Vec<DVec3>, Surface)>) -> Evidence {
         vertices: bounds.iter().map(|b| b.points[0]).collect(),
         bounds,
         outlines: Vec::new(),
+        bent: false,
         outline_ends: Vec::new(),
         discs: Vec::new(),
         directions: vec![axis()],

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use glam::{DVec2, DVec3};
 
 use super::evidence::{Evidence, Sight};
-use super::tests::{AT, evidence, free, holds, same, torus};
+use super::tests::{AT, axis, evidence, free, holds, same, torus};
 use super::{axes, judge, profile, sphere};
 use crate::lift::ring_torus::touching_gap;
 use crate::lift::{Camera, Surface};
@@ -162,5 +162,36 @@ fn the_bulge_of_a_rounded_rim_shows_in_its_outline() {
         let found: Vec<Surface> = axes.iter().flat_map(|a| profile::bulges(&rim, a)).collect();
         let best = judge::best(&rim, found, 1e-5);
         assert!(best.is_some_and(|s| same(&s, &wanted, 1e-4)), "{best:?}");
+    }
+}
+
+#[test]
+fn lines_touch_cylinders_and_cones() {
+    let (u, v) = axis().any_orthonormal_pair();
+    for k in 0..12 {
+        let turn = f64::from(k) * TAU / 12.0;
+        let (out, along) = (
+            u * turn.cos() + v * turn.sin(),
+            v * turn.cos() - u * turn.sin(),
+        );
+        let sight = |from: DVec3, direction: DVec3| Sight {
+            from: from - direction * 3.0,
+            direction: direction.normalize(),
+        };
+        let beside = sight(AT + out * 0.5, along + axis() * 0.3);
+        assert!((beside.apart(AT, axis()) - 0.5).abs() < 1e-12);
+        assert!((sight(AT + out * 0.5, axis()).apart(AT, axis()) - 0.5).abs() < 1e-12);
+        // In the plane that touches a cone along a line of it, across that line.
+        let angle = 0.4f64;
+        let line = axis() * angle.cos() + out * angle.sin();
+        let normal = out * angle.cos() - axis() * angle.sin();
+        let across = along + line * 0.2;
+        let gap =
+            |off: f64| sight(AT + line * 0.7 + normal * off, across).cone_gap(AT, axis(), angle);
+        assert!(gap(0.0).abs() < 1e-12, "{}", gap(0.0));
+        assert!(gap(0.01) > 0.009 && gap(-0.01) < -0.009);
+        // Steeper than the cone.
+        let steep = sight(AT + out, axis() + out * 0.1);
+        assert_eq!(steep.cone_gap(AT, axis(), angle), f64::INFINITY);
     }
 }

@@ -131,6 +131,7 @@ fn evidence(
         vertices: bounds.iter().map(|b| b.points[0]).collect(),
         bounds,
         outlines: Vec::new(),
+        bent: false,
         outline_ends: Vec::new(),
         discs: Vec::new(),
         directions: truth.directions.clone(),

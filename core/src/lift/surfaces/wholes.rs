@@ -46,21 +46,23 @@ pub(super) fn kind(sheet: &Sheet<'_>, whole: &[usize]) -> SurfaceKind {
 }
 
 /// Whether a curve is an outline whatever the faces beside it are: they are parts of one surface then.
-/// An outline leaves a circle by its tangent, and so does the circle's own arc: it is no ellipse.
+/// An outline leaves a circle by its tangent, and so does the circle's own arc: it is no ellipse. In
+/// perspective arcs are not told from outlines so.
 fn is_fold(sheet: &Sheet<'_>, edge: usize) -> bool {
     let [a, b] = sheet.drawing.edges[edge].v;
-    matches!(sheet.drawing.edges[edge].curve, Curve2::Polyline)
+    sheet.camera().is_parallel()
+        && matches!(sheet.drawing.edges[edge].curve, Curve2::Polyline)
         && sheet.circles[edge].is_none()
         && a != b
         && sheet.drawing.is_fold(edge)
 }
 
-/// Whether an edge is an outline of two faces that are not taken for one. Two spheres may meet in a
-/// circle around any axis.
-pub(super) fn is_outline(sheet: &Sheet<'_>, edge: usize, [a, b]: [usize; 2]) -> bool {
-    let [kind, other] = [a, b].map(|f| sheet.faces[f].kind);
-    let lone = kind == other && kind != SurfaceKind::Sphere && is_lone(sheet, edge);
-    !sheet.is_planar(b) && (lone || is_fold(sheet, edge))
+/// Whether an edge is an outline of two faces of one kind that are not taken for one. Two spheres may
+/// meet in a circle around any axis.
+pub(super) fn is_outline(sheet: &Sheet<'_>, edge: usize, faces: [usize; 2]) -> bool {
+    let [kind, other] = faces.map(|f| sheet.faces[f].kind);
+    let lone = kind != SurfaceKind::Sphere && is_lone(sheet, edge);
+    kind == other && (lone || is_fold(sheet, edge))
 }
 
 fn wholes(
