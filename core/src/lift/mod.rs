@@ -6,6 +6,7 @@
 //! 4. every plane, cylinder, cone, sphere and torus gets its surface.
 
 mod assumed;
+mod bends;
 mod blame;
 mod camera;
 mod chance;
@@ -119,6 +120,7 @@ fn lift_exact(
         } else {
             reading.clone()
         };
+        let reading = bends::extended(drawing, faces, reading);
         match choice(drawing, faces, reading, rival) {
             Ok(choice) => {
                 if best.as_ref().is_none_or(|b| choice.is_better_than(b)) {

@@ -2,6 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
+use super::DrawnNormals;
 use crate::drawing::{Curve2, Drawing, EllipseArc};
 
 /// Standard errors within which a measurement agrees with a prediction.
@@ -223,25 +224,45 @@ fn cluster(segments: &[Segment], precision: f64) -> Vec<Cluster> {
     clusters
 }
 
-fn circles(drawing: &Drawing, precision: f64) -> Vec<CircleGroup> {
+/// All arcs that may be circles and show it well enough.
+fn arcs(drawing: &Drawing, precision: f64) -> impl Iterator<Item = (usize, EllipseArc)> {
     let by_hand = UNCERTAIN_BY_HAND * precision / drawing.size();
     let uncertain = by_hand.clamp(UNCERTAIN, MOST_UNCERTAIN);
-    let mut arcs: Vec<CircleGroup> = drawing
+    drawing
         .edges
         .iter()
         .enumerate()
-        .filter_map(|(edge, e)| match e.curve {
+        .filter_map(move |(edge, e)| match e.curve {
             Curve2::Ellipse(arc)
                 if arc.uncertainty < uncertain
                     && arc.residual < AGREE * precision
                     && arc.ratio < FACE_ON
                     && arc.ratio * arc.major.length() > 20.0 * precision =>
             {
-                Some(CircleGroup::new(edge, &arc, precision))
+                Some((edge, arc))
             }
             _ => None,
         })
-        .collect();
+}
+
+/// The normals of all circles of a parallel projection, two each.
+pub(super) fn drawn_normals(drawing: &Drawing, precision: f64) -> Vec<DrawnNormals> {
+    let normals = |(edge, arc): (usize, EllipseArc)| {
+        let group = CircleGroup::new(edge, &arc, precision);
+        DrawnNormals {
+            edge,
+            normals: [1.0, -1.0].map(|sign| group.normal * DVec3::new(1.0, 1.0, sign)),
+            error: group.error,
+            center: arc.center,
+            reach: arc.major.length(),
+        }
+    };
+    arcs(drawing, precision).map(normals).collect()
+}
+
+fn circles(drawing: &Drawing, precision: f64) -> Vec<CircleGroup> {
+    let group = |(edge, arc): (usize, EllipseArc)| CircleGroup::new(edge, &arc, precision);
+    let mut arcs: Vec<CircleGroup> = arcs(drawing, precision).map(group).collect();
     arcs.sort_by(|a, b| a.error.total_cmp(&b.error));
     let mut groups: Vec<CircleGroup> = Vec::new();
     for arc in arcs {

@@ -21,7 +21,7 @@ mod refine;
 #[cfg(test)]
 mod tests;
 
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 
 use super::{Camera, LiftError};
 use crate::drawing::{Drawing, Projection};
@@ -55,6 +55,40 @@ pub struct Slant {
     /// Whether it makes a usual angle with two axes and a right one with the third. If not, the
     /// edges may as well meet in a point of space.
     pub usual: bool,
+}
+
+/// The normals of a circle that is drawn as an ellipse: two planes show it alike.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct DrawnNormals {
+    pub(crate) edge: usize,
+    /// The two unit normals.
+    pub(crate) normals: [DVec3; 2],
+    /// Their standard error, radians.
+    pub(crate) error: f64,
+    /// Middle of the ellipse, and its larger half axis.
+    pub(crate) center: DVec2,
+    pub(crate) reach: f64,
+}
+
+impl DrawnNormals {
+    /// Whether a circle of the unit normal `n`, of any sign and known to `error` radians, may look so.
+    pub(crate) fn agrees(&self, n: DVec3, error: f64) -> bool {
+        let limit = (AGREE * (self.error + error)).min(0.05);
+        let near = |m: &DVec3| m.cross(n).length() < limit;
+        self.normals.iter().any(near)
+    }
+}
+
+/// The normals of all arcs that are drawn as circles well enough, two each.
+pub(crate) fn drawn_normals(
+    drawing: &Drawing,
+    camera: &Camera,
+    precision: f64,
+) -> Vec<DrawnNormals> {
+    match camera {
+        Camera::Parallel => evidence::drawn_normals(drawing, precision),
+        Camera::Central { .. } => central::drawn_normals(drawing, camera, precision),
+    }
 }
 
 /// The dominant directions of a drawing.
@@ -163,7 +197,7 @@ impl Directions {
     }
 }
 
-fn towards_viewer(d: DVec3) -> DVec3 {
+pub(crate) fn towards_viewer(d: DVec3) -> DVec3 {
     if d.z < 0.0 { -d } else { d }
 }
 

@@ -17,17 +17,7 @@ const FACE_ON: f64 = 1.0 - 1e-4;
 const LOOSE: f64 = 0.05;
 
 /// A drawn circle: two planes cut a cone over an ellipse in circles.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Circle {
-    pub(super) edge: usize,
-    /// The two unit normals.
-    pub(super) normals: [DVec3; 2],
-    /// Their standard error, radians.
-    pub(super) error: f64,
-    /// Middle of the ellipse, and its larger half axis.
-    center: DVec2,
-    reach: f64,
-}
+pub(super) use crate::lift::directions::DrawnNormals as Circle;
 
 impl Circle {
     /// The one of its normals, signed alike, that agrees with a direction.
@@ -51,7 +41,7 @@ pub(super) struct Group {
 }
 
 /// All arcs that may be circles and show it well enough.
-pub(super) fn circles(drawing: &Drawing, camera: &Camera, precision: f64) -> Vec<Circle> {
+pub(in crate::lift::directions) fn circles(drawing: &Drawing, camera: &Camera, precision: f64) -> Vec<Circle> {
     let circle = |(edge, e): (usize, &crate::drawing::Edge)| match e.curve {
         Curve2::Ellipse(arc)
             if arc.uncertainty < UNCERTAIN
