@@ -14,6 +14,9 @@ const UNCERTAIN: f64 = 0.01;
 const UNCERTAIN_BY_HAND: f64 = 20.0;
 const MOST_UNCERTAIN: f64 = 0.1;
 
+/// Errors, radians, up to which it is no chance that an edge is drawn along a normal.
+const SHARP: f64 = 1e-3;
+
 /// Circles seen from straight above, or outlines of spheres: their axis is the view's.
 const FACE_ON: f64 = 1.0 - 1e-4;
 
@@ -37,6 +40,9 @@ pub(crate) struct Cluster {
     pub(crate) length: f64,
     /// Root of the sum of squared lengths: end-point errors over this give the angle's error.
     pub(crate) lever: f64,
+    /// Indices of groups of circles from which all members start along the normal, as it is drawn:
+    /// outlines of their cylinders.
+    pub(super) of_circles: Vec<usize>,
 }
 
 /// Arcs of circles in parallel planes, or in the mirror images of such planes.
@@ -78,6 +84,14 @@ impl Evidence {
             circles: circles(drawing, precision),
             corners: vec![Vec::new(); drawing.vertices.len()],
         };
+        let of_circles: Vec<Vec<usize>> = evidence
+            .clusters
+            .iter()
+            .map(|c| evidence.starts_of(c, drawing))
+            .collect();
+        for (cluster, groups) in evidence.clusters.iter_mut().zip(of_circles) {
+            cluster.of_circles = groups;
+        }
         for (e, shown) in evidence.shown(drawing.edges.len()).into_iter().enumerate() {
             for v in drawing.edges[e].v {
                 evidence.corners[v].push(shown);
@@ -99,6 +113,24 @@ impl Evidence {
     pub(crate) fn salience(&self, cluster: &Cluster) -> f64 {
         let members = cluster.members.iter().filter_map(|&m| self.segments.get(m));
         members.map(|s| (s.length / self.size).sqrt()).sum()
+    }
+
+    /// Groups of circles from which all members of a cluster start along the normal.
+    fn starts_of(&self, cluster: &Cluster, drawing: &Drawing) -> Vec<usize> {
+        let starts = |group: &CircleGroup| {
+            let drawn = group.normal.truncate();
+            let error = cluster.error(self.precision) + group.error / drawn.length();
+            let along = cluster.direction.perp_dot(drawn.normalize_or_zero()).abs();
+            let ends = group.edges.iter().map(|&e| drawing.edges[e].v);
+            error < SHARP
+                && along < AGREE * error
+                && self.edges_of(cluster).all(|e| {
+                    let line = drawing.edges[e].v;
+                    ends.clone().any(|v| line.iter().any(|u| v.contains(u)))
+                })
+        };
+        let groups = self.circles.iter().enumerate();
+        groups.filter(|(_, g)| starts(g)).map(|(i, _)| i).collect()
     }
 
     /// Cluster of each straight edge and group of each circle, by edge.
@@ -217,6 +249,7 @@ fn cluster(segments: &[Segment], precision: f64) -> Vec<Cluster> {
                 members: vec![index],
                 length: s.length,
                 lever: s.length,
+                of_circles: Vec::new(),
             }),
         }
     }
@@ -251,6 +284,7 @@ pub(super) fn drawn_normals(drawing: &Drawing, precision: f64) -> Vec<DrawnNorma
         let group = CircleGroup::new(edge, &arc, precision);
         DrawnNormals {
             edge,
+            v: drawing.edges[edge].v,
             normals: [1.0, -1.0].map(|sign| group.normal * DVec3::new(1.0, 1.0, sign)),
             error: group.error,
             center: arc.center,

@@ -61,6 +61,8 @@ pub struct Slant {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct DrawnNormals {
     pub(crate) edge: usize,
+    /// The arc's vertices.
+    pub(crate) v: [usize; 2],
     /// The two unit normals.
     pub(crate) normals: [DVec3; 2],
     /// Their standard error, radians.

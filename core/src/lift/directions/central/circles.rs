@@ -48,7 +48,7 @@ pub(in crate::lift::directions) fn circles(drawing: &Drawing, camera: &Camera, p
                 && arc.residual < AGREE * precision
                 && arc.ratio * arc.major.length() > 20.0 * precision =>
         {
-            of_ellipse(edge, &arc, camera, precision)
+            of_ellipse((edge, e.v), &arc, camera, precision)
         }
         _ => None,
     };
@@ -62,7 +62,7 @@ pub(in crate::lift::directions) fn circles(drawing: &Drawing, camera: &Camera, p
 
 /// The circular sections of the cone over an ellipse: with eigenvalues l1 > l2 > 0 > l3 of the
 /// cone's matrix the normals are `sqrt(l1 - l2) e1 +- sqrt(l2 - l3) e3`.
-fn of_ellipse(edge: usize, arc: &EllipseArc, camera: &Camera, precision: f64) -> Option<Circle> {
+fn of_ellipse((edge, ends): (usize, [usize; 2]), arc: &EllipseArc, camera: &Camera, precision: f64) -> Option<Circle> {
     let Camera::Central { principal, focal } = *camera else {
         return None;
     };
@@ -86,6 +86,7 @@ fn of_ellipse(edge: usize, arc: &EllipseArc, camera: &Camera, precision: f64) ->
     let slant = (1.0 - facing[0].max(facing[1]).powi(2)).sqrt();
     (facing[0].max(facing[1]) < FACE_ON).then(|| Circle {
         edge,
+        v: ends,
         normals,
         error: (arc.uncertainty + precision / arc.major.length()) / slant,
         center: arc.center,
@@ -181,7 +182,7 @@ mod tests {
             let Curve2::Ellipse(arc) = Curve2::recognise(&points) else {
                 panic!("no ellipse");
             };
-            of_ellipse(edge, &arc, &camera, 1e-6).unwrap()
+            of_ellipse((edge, [0; 2]), &arc, &camera, 1e-6).unwrap()
         };
         let mut all = vec![
             circle(0, n, [0.0, 0.0, -3.0]),
@@ -223,7 +224,7 @@ mod tests {
             let Curve2::Ellipse(arc) = Curve2::recognise(&points) else {
                 return Err(TestCaseError::fail("no ellipse"));
             };
-            let circle = of_ellipse(0, &arc, &camera, 1e-6).unwrap();
+            let circle = of_ellipse((0, [0; 2]), &arc, &camera, 1e-6).unwrap();
             let found = circle.agreeing(n, 1e-6).or(circle.agreeing(-n, 1e-6));
             prop_assert!(found.is_some_and(|m| m.cross(n).length() < 1e-6), "{circle:?} {n}");
         }
