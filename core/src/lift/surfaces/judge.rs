@@ -14,6 +14,10 @@ const KINK: f64 = 1e-6;
 /// A stand-in passes through known points within this share of the drawing's size.
 const STAND_IN: f64 = 8e-5;
 
+/// A tube with a spine of less than this share of its radius is a sphere, on which any two equal
+/// circles lie.
+const SPHERE: f64 = 1e-3;
+
 /// A candidate this close, relative to the drawing's size, is as good as the drawing.
 const EXACT: f64 = 2e-6;
 
@@ -107,6 +111,9 @@ pub(super) fn residuals(evidence: &Evidence, surface: &Surface, out: &mut Vec<f6
 
 /// Largest residual.
 pub(super) fn misfit(evidence: &Evidence, surface: &Surface) -> f64 {
+    if matches!(*surface, Surface::Torus { major, minor, .. } if major < SPHERE * minor) {
+        return f64::INFINITY;
+    }
     let mut all = Vec::new();
     residuals(evidence, surface, &mut all);
     let worst = |m: f64, r: &f64| {
