@@ -56,23 +56,29 @@ struct Look {
 }
 
 /// A reading with the normals of circles that bends join to circles of known normals; in a central
-/// projection also of bends whose both ends are unknown.
-pub(super) fn extended(drawing: &Drawing, faces: &[Face], mut reading: Directions) -> Directions {
+/// projection also of bends whose both ends are unknown. With the number of arcs that were told.
+pub(super) fn extended(
+    drawing: &Drawing,
+    faces: &[Face],
+    mut reading: Directions,
+) -> (Directions, usize) {
     let bent = |f: &Face| matches!(f.kind, SurfaceKind::Torus | SurfaceKind::Other);
     if !faces.iter().any(bent) {
-        return reading;
+        return (reading, 0);
     }
     let normals = drawn_normals(drawing, &reading.camera, reading.precision);
     let open = |n: &DrawnNormals| known(&reading, n.edge).is_none();
     if !normals.iter().any(open) {
-        return reading;
+        return (reading, 0);
     }
     let mut bends = bends(drawing, faces, &normals);
+    let mut told = 0;
     while let Some(slant) = bends.iter().find_map(|b| b.told(&reading, &normals)) {
+        told += slant.circles.len();
         reading.slanted.push(slant);
         bends.retain(|b| b.ends.iter().any(|end| end.known(&reading).is_none()));
     }
-    reading
+    (reading, told)
 }
 
 /// Direction and error of the normal that a circle is known to have.
@@ -196,7 +202,7 @@ impl Bend {
         }
         fitting.sort_by(|a, b| a.0.total_cmp(&b.0));
         let (gap, a, b) = *fitting.first()?;
-        if fitting.get(1).is_some_and(|rival| rival.0 < CLEARLY * gap) {
+        if fitting.get(1).is_some_and(|rival| rival.0 <= CLEARLY * gap) {
             return None;
         }
         let look = if is_known[0] { b } else { a };
@@ -212,7 +218,7 @@ impl Bend {
         })
     }
 
-    /// Mean distance by which lines of sight to the outlines miss the torus between two circles, drawing
+    /// Distance by which lines of sight to the outlines usually miss the torus between two circles, drawing
     /// units.
     fn gap(&self, camera: &Camera, a: &Look, b: &Look, apart: DVec3) -> f64 {
         let ring = |look: &Look, center: DVec3| Ring {
@@ -225,8 +231,10 @@ impl Bend {
             return f64::INFINITY;
         };
         let sights = self.outlines.iter().map(|p| camera.ray(*p));
-        let sum: f64 = sights.map(|(from, ray)| touching_gap(&torus, from, ray)).sum();
-        sum / self.outlines.len().max(1) as f64
+        let gaps = sights.map(|(from, ray)| touching_gap(&torus, from, ray));
+        let mut gaps: Vec<f64> = gaps.collect();
+        gaps.sort_by(f64::total_cmp);
+        gaps.get(gaps.len() / 2).copied().unwrap_or(f64::INFINITY)
     }
 }
 
@@ -248,8 +256,15 @@ fn apart(camera: &Camera, a: &Look, b: &Look, limit: f64) -> Option<DVec3> {
     };
     let along = |sign: f64| {
         let d = a.normal + b.normal * sign;
-        let d = if camera.is_parallel() { d.with_z(0.0) } else { d };
-        let aside = apart.normalize_or_zero().cross(d.normalize_or_zero()).length();
+        let d = if camera.is_parallel() {
+            d.with_z(0.0)
+        } else {
+            d
+        };
+        let aside = apart
+            .normalize_or_zero()
+            .cross(d.normalize_or_zero())
+            .length();
         (aside, sign)
     };
     let (aside, sign) = [along(1.0), along(-1.0)]

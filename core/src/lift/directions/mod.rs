@@ -98,7 +98,7 @@ pub(crate) fn drawn_normals(
 pub struct Directions {
     /// Three axes at right angles, or one alone.
     pub axes: Vec<Axis>,
-    /// Further directions; none in a parallel projection, which does not show them.
+    /// Further directions; in a parallel projection, which does not show them, those that faces tell.
     pub slanted: Vec<Slant>,
     /// The projection: parallel, or central with a focal length given or estimated.
     pub camera: Camera,

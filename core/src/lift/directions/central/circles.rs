@@ -41,7 +41,11 @@ pub(super) struct Group {
 }
 
 /// All arcs that may be circles and show it well enough.
-pub(in crate::lift::directions) fn circles(drawing: &Drawing, camera: &Camera, precision: f64) -> Vec<Circle> {
+pub(in crate::lift::directions) fn circles(
+    drawing: &Drawing,
+    camera: &Camera,
+    precision: f64,
+) -> Vec<Circle> {
     let circle = |(edge, e): (usize, &crate::drawing::Edge)| match e.curve {
         Curve2::Ellipse(arc)
             if arc.uncertainty < UNCERTAIN
@@ -62,7 +66,12 @@ pub(in crate::lift::directions) fn circles(drawing: &Drawing, camera: &Camera, p
 
 /// The circular sections of the cone over an ellipse: with eigenvalues l1 > l2 > 0 > l3 of the
 /// cone's matrix the normals are `sqrt(l1 - l2) e1 +- sqrt(l2 - l3) e3`.
-fn of_ellipse((edge, ends): (usize, [usize; 2]), arc: &EllipseArc, camera: &Camera, precision: f64) -> Option<Circle> {
+fn of_ellipse(
+    (edge, ends): (usize, [usize; 2]),
+    arc: &EllipseArc,
+    camera: &Camera,
+    precision: f64,
+) -> Option<Circle> {
     let Camera::Central { principal, focal } = *camera else {
         return None;
     };
