@@ -6,6 +6,7 @@
 //! 4. every plane, cylinder, cone, sphere and torus gets its surface.
 
 mod assumed;
+mod bends;
 mod blame;
 mod camera;
 mod chance;
@@ -39,6 +40,8 @@ pub mod system;
 mod testing;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tests_bends;
 #[cfg(test)]
 mod tests_central;
 mod truth;
@@ -104,21 +107,33 @@ fn lift_exact(
     if options.flip && matches!(drawing.projection, Projection::Perspective { .. }) {
         return Err(LiftError::NoReversal.into());
     }
-    let readings = Directions::candidates(drawing)?;
-    let most = readings.iter().map(explained).max().unwrap_or(0);
+    let mut readings: Vec<(usize, Directions)> = Directions::candidates(drawing)?
+        .into_iter()
+        .map(|reading| {
+            let reading = if options.flip {
+                reading.reversed()
+            } else {
+                reading
+            };
+            let shown = explained(&reading);
+            let (reading, told) = bends::extended(drawing, faces, reading);
+            (shown + told, reading)
+        })
+        .collect();
+    // A normal that bends go on from is the true one of its circle.
+    if readings.iter().any(|(all, r)| *all > explained(r)) {
+        readings.sort_by_key(|(all, _)| std::cmp::Reverse(*all));
+    }
+    let most = readings.iter().map(|r| r.0).max().unwrap_or(0);
     let mut best: Option<Choice> = None;
     let mut refusal = None;
-    for (i, reading) in readings.iter().enumerate() {
-        progress.report(Stage::Lift, 0.2 + 0.8 * i as f64 / readings.len() as f64)?;
-        let rival = explained(reading) == most;
+    let count = readings.len();
+    for (i, (all, reading)) in readings.into_iter().enumerate() {
+        progress.report(Stage::Lift, 0.2 + 0.8 * i as f64 / count as f64)?;
+        let rival = all == most;
         if best.as_ref().is_some_and(|b| b.contradictions == 0) && !rival {
             continue;
         }
-        let reading = if options.flip {
-            reading.clone().reversed()
-        } else {
-            reading.clone()
-        };
         match choice(drawing, faces, reading, rival) {
             Ok(choice) => {
                 if best.as_ref().is_none_or(|b| choice.is_better_than(b)) {

@@ -206,10 +206,10 @@ fn link(sheet: &Sheet<'_>, centers: &[Center], k: usize, face: usize, system: &m
     }
 }
 
-/// A pipe's bend by a right angle: the centre of its one end is as far along the one axis as along
-/// the other from the centre of its other end, which the drawing shows.
+/// A pipe's bend: by symmetry the centre of its one end is as far along the one normal as along the
+/// other from the centre of its other end, which the drawing shows.
 fn bends(sheet: &Sheet<'_>, edges: &[usize], face: usize, system: &mut System<Tag>) {
-    let count = sheet.directions.axes.len();
+    let count = sheet.normals();
     for i in 0..count {
         for j in i + 1..count {
             let (from, to) = (circles(sheet, edges, i), circles(sheet, edges, j));

@@ -89,7 +89,8 @@ impl Scene {
         [1.0, -1.0].map(|s| (toward * cos + side * (s * sin)) * radius)
     }
 
-    /// An arc around `axis` from `center + from`, counter-clockwise, to `center + to`.
+    /// An arc around `axis` from `center + from`, counter-clockwise, to `center + to`; one that is there
+    /// already is found again.
     pub(super) fn arc(&mut self, center: DVec3, axis: DVec3, from: DVec3, to: DVec3) -> usize {
         let v = [self.vertex(center + from), self.vertex(center + to)];
         let side = axis.cross(from);
@@ -98,6 +99,13 @@ impl Scene {
         let points: Vec<DVec2> = (0..=16)
             .map(|i| self.drawn(at(sweep * f64::from(i) / 16.0)))
             .collect();
+        let same = |e: &Edge| {
+            let ends = e.v == v || e.v == [v[1], v[0]];
+            ends && e.points.len() == 17 && e.points[8].distance(points[8]) < 1e-9
+        };
+        if let Some(known) = self.edges.iter().position(same) {
+            return known;
+        }
         let curve = if self.camera.is_parallel() {
             let n = self.turn * axis;
             let mut arc = EllipseArc {
@@ -159,6 +167,62 @@ impl Scene {
         for (start, end) in loops[0].iter().zip(&loops[1]) {
             let boundary = vec![*start, outlines[1], *end, outlines[0]];
             self.face(SurfaceKind::Cylinder, &[boundary]);
+        }
+        loops
+    }
+
+    /// A pipe's bend around `center` by `angle`, radians, from the spine's point `center + from` about the
+    /// unit `axis`: two outlines, four half circles, two faces. Gives the loops at the start and at the end.
+    pub(super) fn bend(
+        &mut self,
+        center: DVec3,
+        axis: DVec3,
+        from: DVec3,
+        radius: f64,
+        angle: f64,
+    ) -> [Vec<usize>; 2] {
+        const STEPS: i32 = 64;
+        let side = axis.cross(from);
+        let parallel = self.camera.is_parallel();
+        let back = self.turn.inverse();
+        let eye = back * -self.shift;
+        // Where the tube's normal is at right angles to the line of sight, on one side or the other.
+        let normal = |t: f64, sign: f64| {
+            let spine = center + from * t.cos() + side * t.sin();
+            let out = (spine - center).normalize();
+            let (sight, near) = if parallel {
+                (back * DVec3::NEG_Z, 0.0)
+            } else {
+                (spine - eye, radius)
+            };
+            let (a, b) = (sight.dot(out), sight.dot(axis));
+            let v = b.atan2(a) + sign * (-near / a.hypot(b)).acos();
+            (spine, out * v.cos() + axis * v.sin())
+        };
+        let mut outlines = Vec::new();
+        for sign in [1.0, -1.0] {
+            let at = |i: i32| {
+                let (spine, normal) = normal(angle * f64::from(i) / f64::from(STEPS), sign);
+                spine + normal * radius
+            };
+            let points: Vec<DVec2> = (0..=STEPS).map(|i| self.drawn(at(i))).collect();
+            let v = [self.vertex(at(0)), self.vertex(at(STEPS))];
+            let curve = Curve2::recognise(&points);
+            self.edges.push(Edge { v, points, curve });
+            outlines.push(self.edges.len() - 1);
+        }
+        let loops = [0.0, angle].map(|t| {
+            let [(spine, one), (_, other)] = [normal(t, 1.0), normal(t, -1.0)];
+            let along = axis.cross(spine - center).normalize();
+            let (one, other) = (one * radius, other * radius);
+            vec![
+                self.arc(spine, along, one, other),
+                self.arc(spine, along, other, one),
+            ]
+        });
+        for (start, end) in loops[0].iter().zip(&loops[1]) {
+            let boundary = vec![*start, outlines[1], *end, outlines[0]];
+            self.face(SurfaceKind::Torus, &[boundary]);
         }
         loops
     }

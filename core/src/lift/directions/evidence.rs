@@ -2,6 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
+use super::DrawnNormals;
 use crate::drawing::{Curve2, Drawing, EllipseArc};
 
 /// Standard errors within which a measurement agrees with a prediction.
@@ -12,6 +13,9 @@ pub(crate) const AGREE: f64 = 4.0;
 const UNCERTAIN: f64 = 0.01;
 const UNCERTAIN_BY_HAND: f64 = 20.0;
 const MOST_UNCERTAIN: f64 = 0.1;
+
+/// Errors, radians, up to which it is no chance that an edge is drawn along a normal.
+const SHARP: f64 = 1e-3;
 
 /// Circles seen from straight above, or outlines of spheres: their axis is the view's.
 const FACE_ON: f64 = 1.0 - 1e-4;
@@ -36,6 +40,9 @@ pub(crate) struct Cluster {
     pub(crate) length: f64,
     /// Root of the sum of squared lengths: end-point errors over this give the angle's error.
     pub(crate) lever: f64,
+    /// Indices of groups of circles from which all members start along the normal, as it is drawn:
+    /// outlines of their cylinders.
+    pub(super) of_circles: Vec<usize>,
 }
 
 /// Arcs of circles in parallel planes, or in the mirror images of such planes.
@@ -77,6 +84,14 @@ impl Evidence {
             circles: circles(drawing, precision),
             corners: vec![Vec::new(); drawing.vertices.len()],
         };
+        let of_circles: Vec<Vec<usize>> = evidence
+            .clusters
+            .iter()
+            .map(|c| evidence.starts_of(c, drawing))
+            .collect();
+        for (cluster, groups) in evidence.clusters.iter_mut().zip(of_circles) {
+            cluster.of_circles = groups;
+        }
         for (e, shown) in evidence.shown(drawing.edges.len()).into_iter().enumerate() {
             for v in drawing.edges[e].v {
                 evidence.corners[v].push(shown);
@@ -98,6 +113,24 @@ impl Evidence {
     pub(crate) fn salience(&self, cluster: &Cluster) -> f64 {
         let members = cluster.members.iter().filter_map(|&m| self.segments.get(m));
         members.map(|s| (s.length / self.size).sqrt()).sum()
+    }
+
+    /// Groups of circles from which all members of a cluster start along the normal.
+    fn starts_of(&self, cluster: &Cluster, drawing: &Drawing) -> Vec<usize> {
+        let starts = |group: &CircleGroup| {
+            let drawn = group.normal.truncate();
+            let error = cluster.error(self.precision) + group.error / drawn.length();
+            let along = cluster.direction.perp_dot(drawn.normalize_or_zero()).abs();
+            let ends = group.edges.iter().map(|&e| drawing.edges[e].v);
+            error < SHARP
+                && along < AGREE * error
+                && self.edges_of(cluster).all(|e| {
+                    let line = drawing.edges[e].v;
+                    ends.clone().any(|v| line.iter().any(|u| v.contains(u)))
+                })
+        };
+        let groups = self.circles.iter().enumerate();
+        groups.filter(|(_, g)| starts(g)).map(|(i, _)| i).collect()
     }
 
     /// Cluster of each straight edge and group of each circle, by edge.
@@ -216,6 +249,7 @@ fn cluster(segments: &[Segment], precision: f64) -> Vec<Cluster> {
                 members: vec![index],
                 length: s.length,
                 lever: s.length,
+                of_circles: Vec::new(),
             }),
         }
     }
@@ -223,25 +257,46 @@ fn cluster(segments: &[Segment], precision: f64) -> Vec<Cluster> {
     clusters
 }
 
-fn circles(drawing: &Drawing, precision: f64) -> Vec<CircleGroup> {
+/// All arcs that may be circles and show it well enough.
+fn arcs(drawing: &Drawing, precision: f64) -> impl Iterator<Item = (usize, EllipseArc)> {
     let by_hand = UNCERTAIN_BY_HAND * precision / drawing.size();
     let uncertain = by_hand.clamp(UNCERTAIN, MOST_UNCERTAIN);
-    let mut arcs: Vec<CircleGroup> = drawing
+    drawing
         .edges
         .iter()
         .enumerate()
-        .filter_map(|(edge, e)| match e.curve {
+        .filter_map(move |(edge, e)| match e.curve {
             Curve2::Ellipse(arc)
                 if arc.uncertainty < uncertain
                     && arc.residual < AGREE * precision
                     && arc.ratio < FACE_ON
                     && arc.ratio * arc.major.length() > 20.0 * precision =>
             {
-                Some(CircleGroup::new(edge, &arc, precision))
+                Some((edge, arc))
             }
             _ => None,
         })
-        .collect();
+}
+
+/// The normals of all circles of a parallel projection, two each.
+pub(super) fn drawn_normals(drawing: &Drawing, precision: f64) -> Vec<DrawnNormals> {
+    let normals = |(edge, arc): (usize, EllipseArc)| {
+        let group = CircleGroup::new(edge, &arc, precision);
+        DrawnNormals {
+            edge,
+            v: drawing.edges[edge].v,
+            normals: [1.0, -1.0].map(|sign| group.normal * DVec3::new(1.0, 1.0, sign)),
+            error: group.error,
+            center: arc.center,
+            reach: arc.major.length(),
+        }
+    };
+    arcs(drawing, precision).map(normals).collect()
+}
+
+fn circles(drawing: &Drawing, precision: f64) -> Vec<CircleGroup> {
+    let group = |(edge, arc): (usize, EllipseArc)| CircleGroup::new(edge, &arc, precision);
+    let mut arcs: Vec<CircleGroup> = arcs(drawing, precision).map(group).collect();
     arcs.sort_by(|a, b| a.error.total_cmp(&b.error));
     let mut groups: Vec<CircleGroup> = Vec::new();
     for arc in arcs {

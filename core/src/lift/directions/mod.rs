@@ -21,7 +21,7 @@ mod refine;
 #[cfg(test)]
 mod tests;
 
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 
 use super::{Camera, LiftError};
 use crate::drawing::{Drawing, Projection};
@@ -57,12 +57,48 @@ pub struct Slant {
     pub usual: bool,
 }
 
+/// The normals of a circle that is drawn as an ellipse: two planes show it alike.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct DrawnNormals {
+    pub(crate) edge: usize,
+    /// The arc's vertices.
+    pub(crate) v: [usize; 2],
+    /// The two unit normals.
+    pub(crate) normals: [DVec3; 2],
+    /// Their standard error, radians.
+    pub(crate) error: f64,
+    /// Middle of the ellipse, and its larger half axis.
+    pub(crate) center: DVec2,
+    pub(crate) reach: f64,
+}
+
+impl DrawnNormals {
+    /// Whether a circle of the unit normal `n`, of any sign and known to `error` radians, may look so.
+    pub(crate) fn agrees(&self, n: DVec3, error: f64) -> bool {
+        let limit = (AGREE * (self.error + error)).min(0.05);
+        let near = |m: &DVec3| m.cross(n).length() < limit;
+        self.normals.iter().any(near)
+    }
+}
+
+/// The normals of all arcs that are drawn as circles well enough, two each.
+pub(crate) fn drawn_normals(
+    drawing: &Drawing,
+    camera: &Camera,
+    precision: f64,
+) -> Vec<DrawnNormals> {
+    match camera {
+        Camera::Parallel => evidence::drawn_normals(drawing, precision),
+        Camera::Central { .. } => central::drawn_normals(drawing, camera, precision),
+    }
+}
+
 /// The dominant directions of a drawing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Directions {
     /// Three axes at right angles, or one alone.
     pub axes: Vec<Axis>,
-    /// Further directions; none in a parallel projection, which does not show them.
+    /// Further directions; in a parallel projection, which does not show them, those that faces tell.
     pub slanted: Vec<Slant>,
     /// The projection: parallel, or central with a focal length given or estimated.
     pub camera: Camera,
@@ -163,7 +199,7 @@ impl Directions {
     }
 }
 
-fn towards_viewer(d: DVec3) -> DVec3 {
+pub(crate) fn towards_viewer(d: DVec3) -> DVec3 {
     if d.z < 0.0 { -d } else { d }
 }
 

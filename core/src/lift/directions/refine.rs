@@ -28,7 +28,16 @@ impl Followers {
     pub(super) fn new(evidence: &Evidence, h: &Hypothesis) -> Self {
         let drawn = |usual: &Usual| DrawnAxis::new(h.frame * usual.direction, h.error);
         let usual: Vec<DrawnAxis> = USUAL.iter().map(drawn).collect();
+        let circles: Vec<Option<usize>> = evidence
+            .circles
+            .iter()
+            .map(|group| only((0..3).filter(|&k| group.agrees(h.frame.col(k), h.error))).one())
+            .collect();
         let clusters = evidence.clusters.iter().map(|c| {
+            // The outlines of a cylinder that stands aslant.
+            if c.of_circles.iter().any(|&g| circles[g].is_none()) {
+                return None;
+            }
             let error = c.error(evidence.precision);
             let along = |i: &usize| usual[*i].is_along(c.direction, error);
             match only((0..3).filter(along)) {
@@ -40,11 +49,7 @@ impl Followers {
         });
         Self {
             clusters: clusters.collect(),
-            circles: evidence
-                .circles
-                .iter()
-                .map(|group| only((0..3).filter(|&k| group.agrees(h.frame.col(k), h.error))).one())
-                .collect(),
+            circles,
         }
     }
 

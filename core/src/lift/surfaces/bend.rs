@@ -25,7 +25,7 @@ pub(super) fn tori(evidence: &Evidence) -> Vec<Surface> {
 }
 
 /// The torus with two sections.
-fn between(a: &Ring, b: &Ring) -> Option<Surface> {
+pub(in crate::lift) fn between(a: &Ring, b: &Ring) -> Option<Surface> {
     let apart = b.center - a.center;
     let cross = a.normal.cross(b.normal);
     let (axis, center) = if cross.length() > 1e-3 {

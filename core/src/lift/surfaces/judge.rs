@@ -14,6 +14,10 @@ const KINK: f64 = 1e-6;
 /// A stand-in passes through known points within this share of the drawing's size.
 const STAND_IN: f64 = 8e-5;
 
+/// A tube with a spine of less than this share of its radius is a sphere, on which any two equal
+/// circles lie.
+const SPHERE: f64 = 1e-3;
+
 /// A candidate this close, relative to the drawing's size, is as good as the drawing.
 const EXACT: f64 = 2e-6;
 
@@ -155,6 +159,9 @@ pub(super) fn misfit(evidence: &Evidence, surface: &Surface) -> f64 {
 
 /// The same, of lines of sight only up to the first that is not below a limit.
 fn misfit_below(evidence: &Evidence, surface: &Surface, limit: f64) -> f64 {
+    if matches!(*surface, Surface::Torus { major, minor, .. } if major < SPHERE * minor) {
+        return f64::INFINITY;
+    }
     let mut most = points_off(evidence, surface);
     for residual in sights(evidence, surface) {
         if most >= limit {

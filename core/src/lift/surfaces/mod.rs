@@ -27,10 +27,12 @@ use super::Surface;
 use super::heights::Heights;
 use super::sheet::Sheet;
 use crate::drawing::SurfaceKind;
+pub(super) use bend::between as bend_between;
 pub(super) use cylinder::touching as touching_circle;
 use evidence::Evidence;
 pub(super) use flat::best_plane;
 use refine::Freedom;
+pub(super) use ring::Ring;
 pub(super) use truth::true_surfaces;
 pub(super) use wholes::touching;
 

@@ -9,11 +9,11 @@ use super::evidence::Evidence;
 use crate::lift::Surface;
 use crate::lift::circle::circle_fit;
 
-/// A tube of a larger radius, relative to the drawing's size, is as straight as the drawing's errors.
-const STRAIGHT: f64 = 100.0;
-
 /// Profiles narrower than this, relative to the drawing's size, are one circle drawn with errors.
 const ONE_CIRCLE: f64 = 3e-5;
+
+/// Tubes of more than this many times the drawing's size are none.
+const WIDEST: f64 = 100.0;
 
 /// The cylinder around an axis: the mean distance.
 pub(super) fn cylinder(evidence: &Evidence, axis: &Axis) -> Option<Surface> {
@@ -84,7 +84,8 @@ pub(super) fn tori(evidence: &Evidence, axis: &Axis) -> Vec<Surface> {
     circles
         .into_iter()
         .filter(|(center, minor)| {
-            (1e-5..STRAIGHT).contains(&(minor / evidence.size)) && center.x > 1e-5 * evidence.size
+            let possible = 1e-5 * evidence.size..WIDEST * evidence.size;
+            possible.contains(minor) && possible.contains(&center.x)
         })
         .map(|(center, minor)| Surface::Torus {
             center: axis.origin + axis.direction * center.y,

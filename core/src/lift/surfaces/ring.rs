@@ -7,11 +7,11 @@ use crate::lift::circle::circle_fit;
 
 /// A circle in space.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Ring {
-    pub(super) center: DVec3,
+pub(in crate::lift) struct Ring {
+    pub(in crate::lift) center: DVec3,
     /// Unit normal, its sign without meaning.
-    pub(super) normal: DVec3,
-    pub(super) radius: f64,
+    pub(in crate::lift) normal: DVec3,
+    pub(in crate::lift) radius: f64,
 }
 
 impl Ring {

@@ -17,17 +17,7 @@ const FACE_ON: f64 = 1.0 - 1e-4;
 const LOOSE: f64 = 0.05;
 
 /// A drawn circle: two planes cut a cone over an ellipse in circles.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Circle {
-    pub(super) edge: usize,
-    /// The two unit normals.
-    pub(super) normals: [DVec3; 2],
-    /// Their standard error, radians.
-    pub(super) error: f64,
-    /// Middle of the ellipse, and its larger half axis.
-    center: DVec2,
-    reach: f64,
-}
+pub(super) use crate::lift::directions::DrawnNormals as Circle;
 
 impl Circle {
     /// The one of its normals, signed alike, that agrees with a direction.
@@ -51,14 +41,18 @@ pub(super) struct Group {
 }
 
 /// All arcs that may be circles and show it well enough.
-pub(super) fn circles(drawing: &Drawing, camera: &Camera, precision: f64) -> Vec<Circle> {
+pub(in crate::lift::directions) fn circles(
+    drawing: &Drawing,
+    camera: &Camera,
+    precision: f64,
+) -> Vec<Circle> {
     let circle = |(edge, e): (usize, &crate::drawing::Edge)| match e.curve {
         Curve2::Ellipse(arc)
             if arc.uncertainty < UNCERTAIN
                 && arc.residual < AGREE * precision
                 && arc.ratio * arc.major.length() > 20.0 * precision =>
         {
-            of_ellipse(edge, &arc, camera, precision)
+            of_ellipse((edge, e.v), &arc, camera, precision)
         }
         _ => None,
     };
@@ -72,7 +66,12 @@ pub(super) fn circles(drawing: &Drawing, camera: &Camera, precision: f64) -> Vec
 
 /// The circular sections of the cone over an ellipse: with eigenvalues l1 > l2 > 0 > l3 of the
 /// cone's matrix the normals are `sqrt(l1 - l2) e1 +- sqrt(l2 - l3) e3`.
-fn of_ellipse(edge: usize, arc: &EllipseArc, camera: &Camera, precision: f64) -> Option<Circle> {
+fn of_ellipse(
+    (edge, ends): (usize, [usize; 2]),
+    arc: &EllipseArc,
+    camera: &Camera,
+    precision: f64,
+) -> Option<Circle> {
     let Camera::Central { principal, focal } = *camera else {
         return None;
     };
@@ -96,6 +95,7 @@ fn of_ellipse(edge: usize, arc: &EllipseArc, camera: &Camera, precision: f64) ->
     let slant = (1.0 - facing[0].max(facing[1]).powi(2)).sqrt();
     (facing[0].max(facing[1]) < FACE_ON).then(|| Circle {
         edge,
+        v: ends,
         normals,
         error: (arc.uncertainty + precision / arc.major.length()) / slant,
         center: arc.center,
@@ -191,7 +191,7 @@ mod tests {
             let Curve2::Ellipse(arc) = Curve2::recognise(&points) else {
                 panic!("no ellipse");
             };
-            of_ellipse(edge, &arc, &camera, 1e-6).unwrap()
+            of_ellipse((edge, [0; 2]), &arc, &camera, 1e-6).unwrap()
         };
         let mut all = vec![
             circle(0, n, [0.0, 0.0, -3.0]),
@@ -233,7 +233,7 @@ mod tests {
             let Curve2::Ellipse(arc) = Curve2::recognise(&points) else {
                 return Err(TestCaseError::fail("no ellipse"));
             };
-            let circle = of_ellipse(0, &arc, &camera, 1e-6).unwrap();
+            let circle = of_ellipse((0, [0; 2]), &arc, &camera, 1e-6).unwrap();
             let found = circle.agreeing(n, 1e-6).or(circle.agreeing(-n, 1e-6));
             prop_assert!(found.is_some_and(|m| m.cross(n).length() < 1e-6), "{circle:?} {n}");
         }

@@ -3,7 +3,7 @@
 use glam::{DMat3, DVec3};
 
 use super::circles::Circle;
-use super::lines::Lines;
+use super::lines::{Line, Lines};
 use crate::lift::Camera;
 use crate::lift::directions::model_frame::USUAL;
 
@@ -27,15 +27,23 @@ impl Followers {
         frame: &DMat3,
         error: f64,
     ) -> Self {
-        let line = |line| {
-            let along = |k: &usize| lines.follows(camera, line, frame.col(*k), error);
-            only((0..3).filter(along))
-        };
         let circle =
             |c: &Circle| only((0..3).filter(|&k| c.agreeing(frame.col(k), error).is_some()));
+        let around: Vec<Option<usize>> = circles.iter().map(circle).collect();
+        let line = |line: &Line| {
+            let along = |k: &usize| lines.follows(camera, line, frame.col(*k), error);
+            let stray = circles.iter().zip(&around).filter(|(_, k)| k.is_none());
+            let mut stray = stray.filter(|(c, _)| c.v.iter().any(|v| line.v.contains(v)));
+            // The outline of a cylinder that stands aslant.
+            let outline = stray.any(|(c, _)| {
+                lines.slant_error(line) + c.error < SHARP
+                    && (c.normals.iter()).any(|n| lines.follows(camera, line, *n, c.error))
+            });
+            only((0..3).filter(along)).filter(|_| !outline)
+        };
         Self {
             lines: lines.all.iter().map(line).collect(),
-            circles: circles.iter().map(circle).collect(),
+            circles: around,
         }
     }
 

@@ -27,6 +27,7 @@ use super::Directions;
 use crate::drawing::Drawing;
 use crate::lift::{Camera, LiftError};
 
+pub(super) use circles::circles as drawn_normals;
 use lines::Lines;
 use reading::Reading;
 
