@@ -101,15 +101,25 @@ pub(super) fn is_fold(drawing: &Drawing, edge: usize) -> bool {
     at(a) && at(b)
 }
 
-/// Unit tangent of an edge at one of its vertices.
+/// Unit tangent of an edge at one of its vertices, away from it: of the parabola through three points.
 fn tangent(edge: &Edge, drawing: &Drawing, v: usize) -> DVec2 {
     let points = &edge.points;
-    let inner = if edge.v[0] == v {
-        points.get(1)
-    } else {
-        points.len().checked_sub(2).and_then(|i| points.get(i))
+    let at = |i: usize| {
+        let i = if edge.v[0] == v {
+            Some(i)
+        } else {
+            points.len().checked_sub(1 + i)
+        };
+        i.and_then(|i| points.get(i)).copied()
     };
-    inner.map_or(DVec2::ZERO, |p| {
-        (*p - drawing.vertices[v]).normalize_or_zero()
-    })
+    let start = drawing.vertices[v];
+    let Some(d) = at(1).map(|p| p - start) else {
+        return DVec2::ZERO;
+    };
+    let Some(e) = at(2).map(|p| p - start - d) else {
+        return d.normalize_or_zero();
+    };
+    let (s, t) = (d.length(), e.length());
+    let slope = d / s - (e / t - d / s) * (s / (s + t));
+    slope.try_normalize().unwrap_or(d.normalize_or_zero())
 }

@@ -73,11 +73,18 @@ Handle(Geom_BSplineSurface) coons(const Loop &loop, const Topology &topology) {
         sides[i] = approximation.Curve();
       }
     }
-    // The sum of Coons wants four poles on every side; a line has two.
+    // Sides meet in a tolerance, and the sum of Coons wants them to meet exactly.
+    if (i > 0) {
+      sides[i]->SetPole(1, sides[i - 1]->EndPoint());
+    }
+    if (i == 3) {
+      sides[i]->SetPole(sides[i]->NbPoles(), sides[0]->StartPoint());
+    }
+    // It wants four poles on every side; a line has two.
     sides[i]->IncreaseDegree(std::max(kCoonsDegree, sides[i]->Degree()));
   }
   const GeomFill_BSplineCurves filling(sides[0], sides[1], sides[2], sides[3],
-                                       GeomFill_CoonsStyle);
+                                       GeomFill_StretchStyle);
   return filling.Surface();
 }
 
@@ -114,11 +121,13 @@ double deviation(const Face &face, const Topology &topology,
   for (const Loop &loop : face.loops) {
     for (const std::int32_t coedge : loop.coedges) {
       const Segment segment = segment_of(topology.edges[edge_index(coedge)]);
+      gp_Pnt2d place;
       for (int i = 0; i <= kProbes; ++i) {
         const double share = static_cast<double>(i) / kProbes;
         const gp_Pnt point =
             segment.curve->Value(segment.first + (segment.last - segment.first) * share);
-        projector.ValueOfUV(point, Precision::Confusion());
+        place = i == 0 ? projector.ValueOfUV(point, Precision::Confusion())
+                       : projector.NextValueOfUV(place, point, Precision::Confusion(), kClose);
         largest = std::max(largest, projector.Gap());
       }
     }
