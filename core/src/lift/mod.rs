@@ -50,8 +50,8 @@ pub use error::LiftError;
 pub use metric::depth_error;
 pub use model::{Conflict, Lift, LiftMethod, LiftOptions, LiftedCurve, Surface};
 pub(crate) use pieces::{Pieces, Readings, Tilt};
-pub(crate) use sweep::Sweep;
 pub use regular::{Regular, Snap};
+pub(crate) use sweep::Sweep;
 pub use truth::true_lift;
 
 use glam::DVec3;
@@ -91,7 +91,9 @@ pub fn lift(
         return exact;
     }
     // Sweeps are exact, or there are none.
-    let swept = exact.as_ref().is_ok_and(|l| !l.curves.is_empty() && l.conflicts.is_empty());
+    let swept = exact
+        .as_ref()
+        .is_ok_and(|l| !l.curves.is_empty() && l.conflicts.is_empty());
     if !swept
         && regular::is_wanted(drawing, exact.as_ref().ok())
         && let Ok(lift) = regular::lift(drawing, faces, options)

@@ -64,6 +64,11 @@ pub(super) fn surfaces_of(
         .collect();
     let mut wholes = wholes::surfaces(sheet);
     wholes.retain(|whole| whole.iter().any(|&f| asked(f)));
+    // What a section sweeps along a helix may pass for a usual surface where it is short.
+    wholes.retain(|whole| {
+        sheet.faces[whole[0]].kind != SurfaceKind::Other
+            || !whole.iter().any(|&f| sheet.is_swept(f))
+    });
     for tolerance in ROUNDS {
         for whole in &wholes {
             if whole.iter().any(|&f| known[f] == Surface::Unknown) {

@@ -172,7 +172,11 @@ impl Normal {
                 let sum: f64 = head.iter().zip(row).map(|(a, b)| a * b).sum();
                 let held = if i == j { share } else { 0.0 };
                 let rest = self.matrix[i][j] * scale[i] * scale[j] + held - sum;
-                factor[i][j] = if i == j { rest.sqrt() } else { rest / factor[j][j] };
+                factor[i][j] = if i == j {
+                    rest.sqrt()
+                } else {
+                    rest / factor[j][j]
+                };
             }
             let known: f64 = factor[i][..i].iter().zip(&x).map(|(a, b)| a * b).sum();
             x[i] = (self.right[i] * scale[i] - known) / factor[i][i];

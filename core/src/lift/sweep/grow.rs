@@ -10,8 +10,8 @@ use crate::drawing::Drawing;
 /// it.
 const NEAR: f64 = 3e-3;
 
-/// Adds all edges that go on along tracks; whether there are any.
-pub(super) fn grow(drawing: &Drawing, fitted: &mut Fitted) -> bool {
+/// Adds all edges that go on along tracks, but for `others`; whether there are any.
+pub(super) fn grow(drawing: &Drawing, fitted: &mut Fitted, others: &[usize]) -> bool {
     let before: usize = fitted.members.iter().map(|m| m.points.len()).sum();
     for i in 0..fitted.members.len() {
         complete(drawing, fitted, i);
@@ -20,7 +20,7 @@ pub(super) fn grow(drawing: &Drawing, fitted: &mut Fitted) -> bool {
     while i < fitted.members.len() {
         for end in [false, true] {
             let last = fitted.members[i].points.len() - 1;
-            let next = next(drawing, fitted, i, if end { last } else { 0 });
+            let next = next(drawing, fitted, others, (i, if end { last } else { 0 }));
             fitted.members.extend(next);
         }
         i += 1;
@@ -43,12 +43,17 @@ fn complete(drawing: &Drawing, fitted: &mut Fitted, i: usize) {
 }
 
 /// The edge that goes on best beyond one end of a member.
-fn next(drawing: &Drawing, fitted: &Fitted, i: usize, end: usize) -> Option<Member> {
+fn next(
+    drawing: &Drawing,
+    fitted: &Fitted,
+    others: &[usize],
+    (i, end): (usize, usize),
+) -> Option<Member> {
     let member = &fitted.members[i];
     let mut best: Option<(f64, Member)> = None;
     for (edge, e) in drawing.edges.iter().enumerate() {
         let beside = e.v.iter().any(|v| drawing.edges[member.edge].v.contains(v));
-        let taken = |e: usize| fitted.members.iter().any(|m| m.edge == e);
+        let taken = |e: usize| others.contains(&e) || fitted.members.iter().any(|m| m.edge == e);
         if !beside || e.is_straight() || e.v[0] == e.v[1] || taken(edge) {
             continue;
         }

@@ -142,12 +142,13 @@ fn fitted(drawing: &Drawing, mut start: Fitted) -> Option<Fitted> {
         }
         start.members.swap_remove(worst);
     }
-    while grow::grow(drawing, &mut start) {
+    let mut others = Vec::new();
+    while grow::grow(drawing, &mut start, &others) {
         start.fit();
         while let Some((worst, miss)) = worst(&start)
             && miss > NEAR
         {
-            start.members.swap_remove(worst);
+            others.push(start.members.swap_remove(worst).edge);
             start.fit();
         }
     }
@@ -190,7 +191,11 @@ fn sweep(fitted: &Fitted, size: f64) -> Sweep {
 
 /// Readings of a drawing with its sweeps: one of each sweep's own axis, then the others, each with
 /// the sweeps around one of its axes.
-pub(super) fn readings(drawing: &Drawing, sweeps: &[Sweep], others: Vec<Directions>) -> Vec<Directions> {
+pub(super) fn readings(
+    drawing: &Drawing,
+    sweeps: &[Sweep],
+    others: Vec<Directions>,
+) -> Vec<Directions> {
     let own = sweeps.iter().map(|sweep| own_reading(drawing, sweep));
     let mut all: Vec<Directions> = own.collect();
     all.extend(others);

@@ -71,7 +71,8 @@ pub(super) fn seeds(drawing: &Drawing) -> Vec<Seed> {
             continue;
         };
         let reach = arc.major.length();
-        if arc.residual < OFF * reach && arc.ratio > NARROW && arc.sweep.abs() > LONG && reach < 4.0 {
+        if arc.residual < OFF * reach && arc.ratio > NARROW && arc.sweep.abs() > LONG && reach < 4.0
+        {
             seeds.push(Seed { edge, points, arc });
         }
     }
@@ -96,7 +97,11 @@ fn first_turn(points: &[DVec2]) -> usize {
 pub(super) fn starts(drawing: &Drawing, seeds: &[Seed], camera: Camera) -> Vec<Fitted> {
     let first = seeds.iter().take(STARTS);
     first
-        .flat_map(|seed| normals(&seed.arc, &camera).into_iter().map(move |n| (seed, n)))
+        .flat_map(|seed| {
+            normals(&seed.arc, &camera)
+                .into_iter()
+                .map(move |n| (seed, n))
+        })
         .filter_map(|(seed, normal)| start(drawing, seeds, seed, normal, camera))
         .collect()
 }
