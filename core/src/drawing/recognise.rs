@@ -48,6 +48,12 @@ impl Curve2 {
             None => Self::Polyline,
         }
     }
+
+    /// The arc of the ellipse nearest to points that run along it, however far they are from it; `None`
+    /// if they turn back or go around more than once.
+    pub(crate) fn nearest_ellipse(points: &[DVec2]) -> Option<EllipseArc> {
+        arc(points, false, f64::INFINITY)
+    }
 }
 
 /// Largest distance of a point from the mean of all. Unlike a bounding box, it does not change when

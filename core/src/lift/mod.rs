@@ -35,6 +35,7 @@ mod solve;
 mod split;
 mod straight;
 mod surfaces;
+mod sweep;
 pub mod system;
 #[cfg(test)]
 mod testing;
@@ -50,10 +51,13 @@ pub use camera::Camera;
 pub(crate) use circle::{circle_fit, circle_through};
 pub use error::LiftError;
 pub use metric::depth_error;
-pub use model::{Conflict, Lift, LiftMethod, LiftOptions, Surface};
+pub use model::{Conflict, Lift, LiftMethod, LiftOptions, LiftedCurve, Surface};
 pub(crate) use pieces::{Pieces, Readings, Tilt};
 pub use regular::{Regular, Snap};
+pub(crate) use sweep::Sweep;
 pub use truth::true_lift;
+
+use glam::DVec3;
 
 use crate::drawing::{Drawing, Projection};
 use crate::identify::Face;
@@ -89,7 +93,12 @@ pub fn lift(
     if matches!(&exact, Err(crate::Error::Cancelled)) {
         return exact;
     }
-    if regular::is_wanted(drawing, exact.as_ref().ok())
+    // Sweeps are exact, or there are none.
+    let swept = exact
+        .as_ref()
+        .is_ok_and(|l| !l.curves.is_empty() && l.conflicts.is_empty());
+    if !swept
+        && regular::is_wanted(drawing, exact.as_ref().ok())
         && let Ok(lift) = regular::lift(drawing, faces, options)
     {
         return Ok(lift);
@@ -107,7 +116,13 @@ fn lift_exact(
     if options.flip && matches!(drawing.projection, Projection::Perspective { .. }) {
         return Err(LiftError::NoReversal.into());
     }
-    let mut readings: Vec<(usize, Directions)> = Directions::candidates(drawing)?
+    let sweeps = sweep::sweeps(drawing);
+    let readings = match Directions::candidates(drawing) {
+        Ok(readings) => sweep::readings(drawing, &sweeps, readings),
+        Err(_) if !sweeps.is_empty() => sweep::readings(drawing, &sweeps, Vec::new()),
+        Err(error) => return Err(error.into()),
+    };
+    let mut readings: Vec<(usize, Directions)> = readings
         .into_iter()
         .map(|reading| {
             let reading = if options.flip {
@@ -294,5 +309,32 @@ fn finish(sheet: &Sheet<'_>, solved: &Solved) -> Lift {
         method: solved.method,
         residual: solved.residual(),
         regular: None,
+        curves: curves(sheet, solved, mean),
     }
+}
+
+/// The curves of swept edges, moved along the lines of sight to where the sweep was lifted.
+fn curves(sheet: &Sheet<'_>, solved: &Solved, mean: f64) -> Vec<LiftedCurve> {
+    let camera = sheet.camera();
+    let mut all = Vec::new();
+    for sweep in &sheet.directions.swept {
+        let ends: Vec<(f64, f64)> = sweep
+            .ends(sheet.drawing)
+            .map(|(_, v, z)| (camera.depth(solved.height(v)), z))
+            .collect();
+        let count = ends.len().max(1) as f64;
+        let share = |f: fn(&(f64, f64)) -> f64| ends.iter().map(f).sum::<f64>() / count;
+        let shift = share(|(lifted, own)| lifted - own) - mean;
+        let growth = share(|(lifted, own)| lifted / own);
+        let place = |p: &DVec3| match camera {
+            Camera::Parallel => *p + DVec3::Z * shift,
+            Camera::Central { .. } => *p * growth,
+        };
+        all.extend(sweep.edges.iter().map(|swept| LiftedCurve {
+            edge: swept.edge,
+            points: swept.points.iter().map(place).collect(),
+            tangents: swept.tangents,
+        }));
+    }
+    all
 }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use serde::{Deserialize, Serialize};
 
 use super::{Camera, Regular};
@@ -176,6 +176,32 @@ pub struct Lift {
     /// The drawing as it was meant, if it is drawn inexactly: depths and surfaces belong to it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub regular: Option<Regular>,
+    /// Curves in space of edges that are more than their surfaces tell: those of sections swept along a
+    /// helix.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub curves: Vec<LiftedCurve>,
+}
+
+impl LiftedCurve {
+    /// The curve turned about the origin of space.
+    pub(crate) fn turned(&self, rotation: DMat3) -> Self {
+        Self {
+            edge: self.edge,
+            points: self.points.iter().map(|p| rotation * *p).collect(),
+            tangents: self.tangents.map(|t| rotation * t),
+        }
+    }
+}
+
+/// The curve of an edge in space.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct LiftedCurve {
+    /// Edge index, from 0.
+    pub edge: usize,
+    /// Points along it, camera frame, from the edge's first vertex to its second.
+    pub points: Vec<DVec3>,
+    /// Unit tangents at both ends, along the curve.
+    pub tangents: [DVec3; 2],
 }
 
 #[cfg(test)]

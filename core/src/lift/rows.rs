@@ -36,6 +36,8 @@ pub(super) enum Tag {
     Prism { face: usize },
     /// The end of a frustum is centred.
     Frustum { face: usize },
+    /// Vertices of a swept section have the depths that its sweep gives them.
+    Swept { edge: usize },
     /// Two points of a cylinder's boundary are on one line along its axis.
     Generator { face: usize },
 }
@@ -85,6 +87,7 @@ pub(super) fn certain(sheet: &Sheet<'_>, unknowns: &Unknowns) -> System<Tag> {
     let axes = sheet.directions.axes.len();
     discs(sheet, unknowns, 0..axes, &mut system);
     chords(sheet, 0..axes, &mut system);
+    swept(sheet, &mut system);
     for &(face, k) in &sheet.ends {
         if let Some(p) = unknowns.plane(face) {
             let tag = Tag::Prism { face };
@@ -245,6 +248,22 @@ fn chords(sheet: &Sheet<'_>, around: Range<usize>, system: &mut System<Tag>) {
             let row = sheet.camera().across(n, u, v);
             let terms = [(e.v[1], row.to), (e.v[0], -row.from)];
             system.push(terms, row.rise, error.recip(), Tag::Chord { edge });
+        }
+    }
+}
+
+fn swept(sheet: &Sheet<'_>, system: &mut System<Tag>) {
+    let camera = sheet.camera();
+    for sweep in &sheet.directions.swept {
+        let weight = sweep.error().recip();
+        let mut ends = sweep.ends(sheet.drawing);
+        let Some((_, first, depth)) = ends.next() else {
+            continue;
+        };
+        for (edge, v, z) in ends {
+            let row = camera.apart(camera.height(depth), camera.height(z));
+            let terms = [(v, row.to), (first, -row.from)];
+            system.push(terms, row.rise, weight, Tag::Swept { edge });
         }
     }
 }

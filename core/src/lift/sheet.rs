@@ -153,6 +153,12 @@ impl<'a> Sheet<'a> {
         self.faces[face].kind == SurfaceKind::Plane
     }
 
+    /// Whether an edge of a face is swept along a helix.
+    pub(super) fn is_swept(&self, face: usize) -> bool {
+        let mut swept = self.directions.swept.iter().flat_map(|s| &s.edges);
+        swept.any(|s| self.edges[face].binary_search(&s.edge).is_ok())
+    }
+
     /// Edges of a face, sorted, each once; a face may name edges that the drawing does not have.
     pub(super) fn edges_of(&self, face: usize) -> &[usize] {
         &self.edges[face]

@@ -55,7 +55,10 @@ impl Solved {
                 | Tag::Prism { face }
                 | Tag::Frustum { face }
                 | Tag::Generator { face } => rows[face] += 1,
-                Tag::Edge { edge } | Tag::Chord { edge } | Tag::Parallel { edge } => {
+                Tag::Edge { edge }
+                | Tag::Chord { edge }
+                | Tag::Parallel { edge }
+                | Tag::Swept { edge } => {
                     let beside = sheet.neighbours(edge).iter();
                     beside.for_each(|&face| rows[face] += 1);
                 }

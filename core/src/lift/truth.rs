@@ -53,5 +53,6 @@ pub fn true_lift(drawing: &Drawing) -> Option<Lift> {
         residual: ROUNDED,
         conflicts: Vec::new(),
         regular: None,
+        curves: Vec::new(),
     })
 }

@@ -1,11 +1,13 @@
 //! The steps of planning, in their order.
 
+use std::collections::BTreeMap;
+
 use glam::{DMat3, DVec3};
 
 use crate::Result;
 use crate::drawing::{CoEdge, Drawing, SurfaceKind};
 use crate::identify::Face;
-use crate::lift::{Camera, Lift};
+use crate::lift::{Camera, Lift, LiftedCurve};
 
 use super::curves::{self, Place};
 use super::lengths::Lengths;
@@ -110,11 +112,17 @@ pub fn plan(drawing: &Drawing, faces: &[Face], lift: &Lift, options: &PlanOption
         .map(|&s| snapped.supports[s])
         .collect();
 
+    let curves = lift.curves.iter().filter(|c| c.points.len() > 2);
+    let curves: BTreeMap<usize, LiftedCurve> = curves
+        .map(|c| (c.edge, c.turned(view.rotation())))
+        .collect();
     let silhouettes: Vec<bool> = uses
         .iter()
         .zip(&drawing.edges)
         .enumerate()
         .map(|(e, ([a, b], edge))| match supports[a.face] {
+            // The edges of a section sweep along with it, and are smooth where outlines end.
+            _ if curves.contains_key(&e) => false,
             Support::Unknown => supports[b.face] == Support::Unknown && drawing.is_fold(e),
             surface => {
                 let ends = edge.v.map(|v| lifted[v]);
@@ -153,6 +161,7 @@ pub fn plan(drawing: &Drawing, faces: &[Face], lift: &Lift, options: &PlanOption
             edge: e,
             drawn: edge,
             ends: edge.v.map(|v| vertices[v]),
+            lifted: curves.get(&e),
             faces: [a.face, b.face],
             supports: [supports[a.face], supports[b.face]],
             sides: [sides[a.face], sides[b.face]],

@@ -37,6 +37,9 @@ constexpr double kOnAxis = 1e-6;
 // A curve in the parameter plane this close to straight is straight.
 constexpr double kStraight = 1e-9;
 
+// Next to a known place a search that ends this far from the point, in inner units, starts anew.
+constexpr double kNear = 1e-4;
+
 double wrapped(double angle) { return std::remainder(angle, kTurn); }
 
 } // namespace
@@ -93,6 +96,13 @@ gp_Pnt2d Chart::place(const gp_Pnt &point) const {
   return gp_Pnt2d(u, v);
 }
 
+gp_Pnt2d Chart::place(const gp_Pnt &point, const gp_Pnt2d &before) const {
+  // A search all over a B-spline surface takes its time.
+  return kind_ == SurfaceType::Filled
+             ? projector_->NextValueOfUV(before, point, Precision::Confusion(), kNear)
+             : place(point);
+}
+
 bool Chart::is_pole(const gp_Pnt &point) const {
   const gp_Vec arm(frame_.Location(), point);
   const double off = arm.Crossed(gp_Vec(frame_.Direction())).Magnitude();
@@ -115,10 +125,7 @@ std::vector<gp_Pnt2d> Chart::trace(const Segment &segment, int steps) const {
     return segment.curve->Value(segment.first + (segment.last - segment.first) * share);
   };
   for (int i = 0; i <= steps; ++i) {
-    // The place before is near, which spares a search over all of a spline.
-    gp_Pnt2d next = kind_ == SurfaceType::Filled && i > 0
-                        ? projector_->NextValueOfUV(places.back(), point(i), Precision::Confusion())
-                        : place(point(i));
+    gp_Pnt2d next = places.empty() ? place(point(i)) : place(point(i), places.back());
     if (!places.empty() && is_periodic()) {
       const gp_Pnt2d &before = places.back();
       next.SetX(before.X() + wrapped(next.X() - before.X()));

@@ -48,6 +48,8 @@ private:
   Chart(const Chart &other, const gp_Ax3 &frame);
   void make_surface();
   gp_Pnt2d place(const gp_Pnt &point) const;
+  // The place of a point next to one whose place is known.
+  gp_Pnt2d place(const gp_Pnt &point, const gp_Pnt2d &before) const;
   // How the place changes with the segment's parameter.
   gp_Vec2d slope(const Segment &segment, double t, const gp_Pnt2d &place) const;
   Handle(Geom2d_Curve) exact(const Segment &segment, const std::vector<gp_Pnt2d> &places,

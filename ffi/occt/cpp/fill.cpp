@@ -17,6 +17,8 @@
 #include <Precision.hxx>
 #include <ShapeAnalysis_Surface.hxx>
 #include <Standard_Failure.hxx>
+#include <TColStd_Array1OfReal.hxx>
+#include <gp_XYZ.hxx>
 
 namespace faceformer::occt {
 namespace {
@@ -59,6 +61,53 @@ Handle(Geom_TrimmedCurve) trimmed(std::int32_t coedge, const Topology &topology)
   return curve;
 }
 
+// Means of the knots that each pole of a direction belongs to (Greville 1967), from 0 to 1: poles that
+// are linear in them make a linear function.
+std::vector<double> means(const TColStd_Array1OfReal &flat, int degree, int poles) {
+  std::vector<double> all;
+  for (int i = 0; i < poles; ++i) {
+    double sum = 0.0;
+    for (int k = 1; k <= degree; ++k) {
+      sum += flat(flat.Lower() + i + k);
+    }
+    all.push_back(sum / degree);
+  }
+  const double first = all.front();
+  const double length = all.back() - first;
+  for (double &mean : all) {
+    mean = (mean - first) / length;
+  }
+  return all;
+}
+
+// Lays the poles between the sides of a surface anew: OCCT blends the sides by the poles' numbers, so
+// that uneven knots bend what is ruled.
+void blend(const Handle(Geom_BSplineSurface) & surface) {
+  const int rows = surface->NbUPoles();
+  const int columns = surface->NbVPoles();
+  TColStd_Array1OfReal in_u(1, rows + surface->UDegree() + 1);
+  TColStd_Array1OfReal in_v(1, columns + surface->VDegree() + 1);
+  surface->UKnotSequence(in_u);
+  surface->VKnotSequence(in_v);
+  const std::vector<double> us = means(in_u, surface->UDegree(), rows);
+  const std::vector<double> vs = means(in_v, surface->VDegree(), columns);
+  const auto pole = [&](int i, int j) { return surface->Pole(i, j).XYZ(); };
+  const auto between = [](const gp_XYZ &a, const gp_XYZ &b, double share) {
+    return a * (1.0 - share) + b * share;
+  };
+  for (int i = 2; i < rows; ++i) {
+    for (int j = 2; j < columns; ++j) {
+      const double u = us[i - 1];
+      const double v = vs[j - 1];
+      const gp_XYZ across = between(pole(i, 1), pole(i, columns), v);
+      const gp_XYZ along = between(pole(1, j), pole(rows, j), u);
+      const gp_XYZ corners = between(between(pole(1, 1), pole(rows, 1), u),
+                                     between(pole(1, columns), pole(rows, columns), u), v);
+      surface->SetPole(i, j, gp_Pnt(across + along - corners));
+    }
+  }
+}
+
 // The sides' own curves are rational where they are circles, and weights spoil the sum of Coons:
 // it then bulges between its sides, and misses them if opposite ones have other weights.
 Handle(Geom_BSplineSurface) coons(const Loop &loop, const Topology &topology) {
@@ -73,12 +122,21 @@ Handle(Geom_BSplineSurface) coons(const Loop &loop, const Topology &topology) {
         sides[i] = approximation.Curve();
       }
     }
-    // The sum of Coons wants four poles on every side; a line has two.
+    // Sides meet in a tolerance, and the sum of Coons wants them to meet exactly.
+    if (i > 0) {
+      sides[i]->SetPole(1, sides[i - 1]->EndPoint());
+    }
+    if (i == 3) {
+      sides[i]->SetPole(sides[i]->NbPoles(), sides[0]->StartPoint());
+    }
+    // It wants four poles on every side; a line has two.
     sides[i]->IncreaseDegree(std::max(kCoonsDegree, sides[i]->Degree()));
   }
   const GeomFill_BSplineCurves filling(sides[0], sides[1], sides[2], sides[3],
-                                       GeomFill_CoonsStyle);
-  return filling.Surface();
+                                       GeomFill_StretchStyle);
+  const Handle(Geom_BSplineSurface) surface = filling.Surface();
+  blend(surface);
+  return surface;
 }
 
 Handle(Geom_BSplineSurface) plate(const Face &face, const Topology &topology,
@@ -121,7 +179,7 @@ double deviation(const Face &face, const Topology &topology,
             segment.curve->Value(segment.first + (segment.last - segment.first) * share);
         // Only the first place of an edge is searched for on all of the surface.
         place = i == 0 ? projector.ValueOfUV(point, Precision::Confusion())
-                       : projector.NextValueOfUV(place, point, Precision::Confusion());
+                       : projector.NextValueOfUV(place, point, Precision::Confusion(), kClose);
         largest = std::max(largest, projector.Gap());
       }
     }

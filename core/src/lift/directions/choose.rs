@@ -279,6 +279,7 @@ fn reading(
         directions: Directions {
             axes: axes.into(),
             slanted: Vec::new(),
+            swept: Vec::new(),
             camera: Camera::Parallel,
             error: found.error,
             precision: evidence.precision,
@@ -351,6 +352,7 @@ fn axis_reading(evidence: &Evidence, group: &CircleGroup) -> Option<Reading> {
                 circles: group.edges.clone(),
             }],
             slanted: Vec::new(),
+            swept: Vec::new(),
             camera: Camera::Parallel,
             error,
             precision: evidence.precision,

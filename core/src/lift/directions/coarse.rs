@@ -382,6 +382,7 @@ fn reading(evidence: &Evidence, found: &Scored) -> Directions {
     Directions {
         axes,
         slanted: Vec::new(),
+        swept: Vec::new(),
         camera: Camera::Parallel,
         error: 2.0 * information.max(1.0).sqrt().recip(),
         precision: evidence.precision,

@@ -23,7 +23,7 @@ mod tests;
 
 use glam::{DMat3, DVec2, DVec3};
 
-use super::{Camera, LiftError};
+use super::{Camera, LiftError, Sweep};
 use crate::drawing::{Drawing, Projection};
 
 pub(crate) use coarse::{is_exact, is_rounded, recognised};
@@ -100,6 +100,8 @@ pub struct Directions {
     pub axes: Vec<Axis>,
     /// Further directions; in a parallel projection, which does not show them, those that faces tell.
     pub slanted: Vec<Slant>,
+    /// Sections swept along a helix around one of the axes, as this reading sees them.
+    pub(crate) swept: Vec<Sweep>,
     /// The projection: parallel, or central with a focal length given or estimated.
     pub camera: Camera,
     /// Standard error of the axes, radians.
@@ -183,10 +185,11 @@ impl Directions {
         for axis in &mut self.axes {
             axis.direction = towards_viewer(axis.direction * DVec3::new(1.0, 1.0, -1.0));
         }
+        self.swept = self.swept.into_iter().map(Sweep::reversed).collect();
         self
     }
 
-    fn seen_from_above(self) -> Self {
+    pub(crate) fn seen_from_above(self) -> Self {
         let steepest = self
             .axes
             .iter()

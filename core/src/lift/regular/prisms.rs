@@ -195,6 +195,7 @@ mod tests {
         let reading = Directions {
             axes: axes.collect(),
             slanted: Vec::new(),
+            swept: Vec::new(),
             camera: Camera::Parallel,
             error: 0.01,
             precision: 0.005,

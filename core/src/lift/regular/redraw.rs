@@ -70,6 +70,7 @@ pub(super) fn lift(draft: &Draft<'_, '_>, violation: f64, snapped: Vec<Snap>) ->
         method: LiftMethod::Regular,
         residual: violation * size,
         regular: Some(regular),
+        curves: Vec::new(),
     }
 }
 

@@ -171,6 +171,7 @@ fn along(drawing: &Drawing, frame: DMat3) -> Directions {
     Directions {
         axes: axes.into(),
         slanted: Vec::new(),
+        swept: Vec::new(),
         camera: Camera::Parallel,
         error: 0.01,
         precision: 0.005,

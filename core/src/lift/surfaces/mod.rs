@@ -72,6 +72,11 @@ pub(super) fn surfaces_of(
         .collect();
     let mut wholes = wholes::surfaces(sheet);
     wholes.retain(|whole| whole.iter().any(|&f| asked(f)));
+    // What a section sweeps along a helix may pass for a usual surface where it is short.
+    wholes.retain(|whole| {
+        wholes::kind(sheet, whole) != SurfaceKind::Other
+            || !whole.iter().any(|&f| sheet.is_swept(f))
+    });
     // What was known, and how good a fit was asked for, when a whole was last tried.
     let mut tried = vec![(usize::MAX, 0.0, false); wholes.len()];
     for (i, share) in ROUNDS.into_iter().enumerate() {

@@ -8,6 +8,7 @@ mod trace;
 use glam::DVec3;
 
 use crate::drawing::{Curve2, Edge};
+use crate::lift::LiftedCurve;
 
 use super::conic::{Conic, fit_plane};
 use super::lengths::Lengths;
@@ -21,6 +22,9 @@ use trace::Lain;
 /// Surfaces that meet at a smaller angle (its sine) do not tell the tangent of their curve.
 const SLANT: f64 = 0.02;
 
+/// Uncertainty from which on the axes of a drawn ellipse are not known.
+const UNKNOWN: f64 = 0.1;
+
 /// What is known of an edge when its curve is sought.
 pub(super) struct Place<'a> {
     /// Edge, from 0.
@@ -28,6 +32,8 @@ pub(super) struct Place<'a> {
     pub(super) drawn: &'a Edge,
     /// Its vertices in space.
     pub(super) ends: [DVec3; 2],
+    /// Its curve in space, if lifting knows it.
+    pub(super) lifted: Option<&'a LiftedCurve>,
     /// Faces beside it, from 0.
     pub(super) faces: [usize; 2],
     /// Their surfaces.
@@ -41,6 +47,25 @@ pub(super) struct Place<'a> {
 }
 
 impl Place<'_> {
+    /// The curve that lifting knows, from vertex to vertex, if it is on both surfaces.
+    fn known(&self, limit: f64) -> Option<Curve3> {
+        let lifted = self.lifted?;
+        let mut points = lifted.points.clone();
+        let [.., last] = points[..] else {
+            return None;
+        };
+        let off = [self.ends[0] - points[0], self.ends[1] - last];
+        let steps = (points.len() - 1) as f64;
+        for (i, p) in points.iter_mut().enumerate() {
+            *p += off[0].lerp(off[1], i as f64 / steps);
+        }
+        let on = |p: &DVec3| self.supports.iter().all(|s| s.distance(*p).abs() <= limit);
+        points.iter().all(on).then_some(Curve3::Points {
+            points,
+            tangents: Some(lifted.tangents),
+        })
+    }
+
     fn lain(&self, i: usize, side: Option<f64>) -> Lain {
         Lain {
             support: self.supports[i],
@@ -60,6 +85,9 @@ impl Place<'_> {
 /// [`PlanError::OffSurface`] or [`PlanError::Curve`] if the surfaces do not meet where it is drawn.
 pub(super) fn curve(place: &Place<'_>, view: &View, lengths: Lengths) -> Result<Curve3, PlanError> {
     let drawn = Drawn::new(place.drawn, view);
+    if let Some(curve) = place.known(lengths.limit) {
+        return Ok(curve);
+    }
     if place.silhouette && !place.drawn.is_straight() {
         let points = trace::trace(&drawn, view, &[place.lain(0, None)], place.ends);
         return Ok(Curve3::Points {
@@ -156,8 +184,12 @@ fn on_plane(
         let lift = |p| drawn::onto(view, &plane, p, None);
         let lifted = [arc.center, arc.center + arc.major, arc.center + arc.minor()].map(lift);
         if let [Some(center), Some(p), Some(q)] = lifted {
-            let conic = Conic::conjugate(center, p - center, q - center);
-            return fitted(place, drawn, conic.rounded(lengths.snap), lengths);
+            let conic = Conic::conjugate(center, p - center, q - center).rounded(lengths.snap);
+            // A curve that is nearly straight is no ellipse that is known well.
+            let on = |p: &DVec3| conic.point(conic.parameter(*p)).distance(*p) <= lengths.limit;
+            if arc.uncertainty < UNKNOWN || place.ends.iter().all(on) {
+                return fitted(place, drawn, conic, lengths);
+            }
         }
     }
     let points = trace::trace(drawn, view, &[place.lain(0, None)], place.ends);

@@ -28,6 +28,7 @@ pub fn true_lift(drawing: &Drawing) -> Option<Lift> {
         residual: 1e-6,
         conflicts: Vec::new(),
         regular: None,
+        curves: Vec::new(),
     })
 }
 

@@ -166,6 +166,7 @@ fn frame_reading(lines: &Lines, round: &[Circle], f: &Fitted, open: Open) -> Opt
         directions: Directions {
             axes: axes.into(),
             slanted,
+            swept: Vec::new(),
             camera: f.camera,
             error: f.error,
             precision: lines.precision,
@@ -256,6 +257,7 @@ fn axis_reading(
         directions: Directions {
             axes: vec![axis],
             slanted: Vec::new(),
+            swept: Vec::new(),
             camera,
             error,
             precision: lines.precision,
