@@ -86,9 +86,7 @@ Segment spline_through(const Edge &edge, const gp_Pnt &start, const gp_Pnt &end)
   if (!closed && edge.tangents.size() == 2) {
     const Point &first = edge.tangents[0];
     const Point &last = edge.tangents[1];
-    // Parameters are lengths along the chords, so that derivatives are about of unit length.
-    interpolate.Load(gp_Vec(first.x, first.y, first.z), gp_Vec(last.x, last.y, last.z),
-                     Standard_False);
+    interpolate.Load(gp_Vec(first.x, first.y, first.z), gp_Vec(last.x, last.y, last.z));
   }
   interpolate.Perform();
   if (!interpolate.IsDone()) {
