@@ -6,14 +6,18 @@ use glam::DVec2;
 use super::model::{Base, OWN, SHARED, Spine};
 
 /// Most steps, and trials of one step.
-const STEPS: usize = 80;
+const STEPS: usize = 50;
 const TRIALS: usize = 8;
 
 /// Step of differences.
 const STEP: f64 = 1e-6;
 
-/// A step that gains less than this share ends the search.
+/// A step that gains less than this share ends the search; far from the drawing, in sizes, so many steps
+/// that gain less than a larger one.
 const GAIN: f64 = 1e-5;
+const FAR: f64 = 1e-3;
+const FAR_GAIN: f64 = 0.1;
+const PATIENCE: usize = 4;
 
 /// An edge on a track.
 #[derive(Debug, Clone)]
@@ -70,6 +74,9 @@ impl Fitted {
     pub(super) fn fit(&mut self) -> f64 {
         let mut cost = self.settle();
         let mut damping: f64 = 1e-3;
+        let count: usize = self.members.iter().map(|m| m.points.len()).sum();
+        let far = FAR * FAR * count as f64;
+        let mut slow = 0;
         for _ in 0..STEPS {
             let normal = self.linear();
             let mut better = None;
@@ -92,7 +99,12 @@ impl Fitted {
             let gained = cost - next;
             damping = (damping / 8.0).max(1e-12);
             cost = next;
-            if gained <= GAIN * cost {
+            slow = if cost > far && gained <= FAR_GAIN * cost {
+                slow + 1
+            } else {
+                0
+            };
+            if gained <= GAIN * cost || slow >= PATIENCE {
                 break;
             }
         }

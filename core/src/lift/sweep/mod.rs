@@ -123,7 +123,11 @@ pub(super) fn sweeps(drawing: &Drawing) -> Vec<Sweep> {
         let Some(fitted) = starts.into_iter().find_map(|s| fitted(drawing, s)) else {
             break;
         };
+        let count = seeds.len();
         seeds.retain(|s: &Seed| !fitted.members.iter().any(|m| m.edge == s.edge));
+        if seeds.len() == count {
+            break;
+        }
         found.push(sweep(&fitted, size));
     }
     found

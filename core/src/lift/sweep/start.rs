@@ -30,7 +30,7 @@ const ASIDE: f64 = 0.3;
 const SMOOTH: f64 = 0.15;
 
 /// Starts that are tried.
-const STARTS: usize = 3;
+const STARTS: usize = 2;
 
 /// A long edge that may be on a track.
 #[derive(Debug, Clone)]
@@ -42,14 +42,28 @@ pub(super) struct Seed {
     arc: EllipseArc,
 }
 
-/// The points of an edge, in sizes of the drawing.
+/// Points of an edge that are kept are so many at least, or turn by this much, radians.
+const FEW: usize = 17;
+const BEND: f64 = 0.12;
+
+/// Points of an edge, in sizes of the drawing: no more than tell its shape.
 pub(super) fn points(drawing: &Drawing, edge: usize) -> Vec<DVec2> {
     let size = drawing.size();
-    drawing.edges[edge]
-        .points
-        .iter()
-        .map(|p| *p / size)
-        .collect()
+    let all = &drawing.edges[edge].points;
+    let mut kept: Vec<DVec2> = Vec::new();
+    let mut turned = f64::INFINITY;
+    for (i, p) in all.iter().enumerate() {
+        if let Some(next) = all.get(i + 1)
+            && i > 0
+        {
+            turned += (*p - all[i - 1]).angle_to(next - p).abs();
+        }
+        if all.len() <= FEW || turned >= BEND || i + 1 == all.len() {
+            kept.push(*p / size);
+            turned = 0.0;
+        }
+    }
+    kept
 }
 
 /// Long edges that are nearly arcs of ellipses, and not quite, longest first.
