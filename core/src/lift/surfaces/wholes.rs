@@ -46,12 +46,11 @@ pub(super) fn kind(sheet: &Sheet<'_>, whole: &[usize]) -> SurfaceKind {
 }
 
 /// Whether a curve is an outline whatever the faces beside it are: they are parts of one surface then.
-/// An outline leaves a circle by its tangent, and so does the circle's own arc: it is no ellipse. In
-/// perspective arcs are not told from outlines so.
+/// An outline leaves a circle by its tangent, and so does the circle's own arc: it is no ellipse, which
+/// tells nothing in perspective.
 fn is_fold(sheet: &Sheet<'_>, edge: usize) -> bool {
     let [a, b] = sheet.drawing.edges[edge].v;
-    sheet.camera().is_parallel()
-        && matches!(sheet.drawing.edges[edge].curve, Curve2::Polyline)
+    matches!(sheet.drawing.edges[edge].curve, Curve2::Polyline)
         && sheet.circles[edge].is_none()
         && a != b
         && sheet.drawing.is_fold(edge)
@@ -62,7 +61,9 @@ fn is_fold(sheet: &Sheet<'_>, edge: usize) -> bool {
 pub(super) fn is_outline(sheet: &Sheet<'_>, edge: usize, faces: [usize; 2]) -> bool {
     let [kind, other] = faces.map(|f| sheet.faces[f].kind);
     let lone = kind != SurfaceKind::Sphere && is_lone(sheet, edge);
-    kind == other && (lone || is_fold(sheet, edge))
+    // Of surfaces of any kind one fits a part by chance, so that doubtful outlines count.
+    let sure = sheet.camera().is_parallel() || kind == SurfaceKind::Other;
+    kind == other && (lone || (sure && is_fold(sheet, edge)))
 }
 
 fn wholes(
@@ -80,7 +81,10 @@ fn wholes(
             && if kind(a) == kind(b) {
                 joins(kind(a), edge)
             } else {
-                counts(kind(a)) && counts(kind(b)) && is_fold(sheet, edge)
+                sheet.camera().is_parallel()
+                    && counts(kind(a))
+                    && counts(kind(b))
+                    && is_fold(sheet, edge)
             }
         {
             parts.join(a, b);
