@@ -182,17 +182,6 @@ pub struct Lift {
     pub curves: Vec<LiftedCurve>,
 }
 
-impl LiftedCurve {
-    /// The curve turned about the origin of space.
-    pub(crate) fn turned(&self, rotation: DMat3) -> Self {
-        Self {
-            edge: self.edge,
-            points: self.points.iter().map(|p| rotation * *p).collect(),
-            tangents: self.tangents.map(|t| rotation * t),
-        }
-    }
-}
-
 /// The curve of an edge in space.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct LiftedCurve {
@@ -202,6 +191,17 @@ pub struct LiftedCurve {
     pub points: Vec<DVec3>,
     /// Unit tangents at both ends, along the curve.
     pub tangents: [DVec3; 2],
+}
+
+impl LiftedCurve {
+    /// The curve turned about the origin of space.
+    pub(crate) fn turned(&self, rotation: DMat3) -> Self {
+        Self {
+            edge: self.edge,
+            points: self.points.iter().map(|p| rotation * *p).collect(),
+            tangents: self.tangents.map(|t| rotation * t),
+        }
+    }
 }
 
 #[cfg(test)]
