@@ -63,6 +63,14 @@ Segment ellipse_through(const Edge &edge, const gp_Pnt &start, const gp_Pnt &end
   return segment;
 }
 
+// Derivative at an end of a curve whose parameters are lengths along chords: the unit tangent, longer by
+// as much as an arc with this tangent is longer than its chord.
+gp_Vec slope(const Point &tangent, const gp_Vec &chord) {
+  const gp_Vec unit(tangent.x, tangent.y, tangent.z);
+  const double angle = unit.Angle(chord);
+  return angle > 1e-6 && angle < 1.0 ? unit * (angle / std::sin(angle)) : unit;
+}
+
 Segment spline_through(const Edge &edge, const gp_Pnt &start, const gp_Pnt &end) {
   const std::size_t count = edge.points.size();
   const bool closed = edge.first == edge.last;
@@ -84,9 +92,9 @@ Segment spline_through(const Edge &edge, const gp_Pnt &start, const gp_Pnt &end)
   }
   GeomAPI_Interpolate interpolate(points, closed, Precision::Confusion());
   if (!closed && edge.tangents.size() == 2) {
-    const Point &first = edge.tangents[0];
-    const Point &last = edge.tangents[1];
-    interpolate.Load(gp_Vec(first.x, first.y, first.z), gp_Vec(last.x, last.y, last.z));
+    interpolate.Load(slope(edge.tangents[0], gp_Vec(points->Value(1), points->Value(2))),
+                     slope(edge.tangents[1], gp_Vec(points->Value(used - 1), points->Value(used))),
+                     Standard_False);
   }
   interpolate.Perform();
   if (!interpolate.IsDone()) {

@@ -33,16 +33,6 @@ pub(super) fn best(
     candidates: Vec<Surface>,
     tolerance: f64,
 ) -> Option<Surface> {
-    best_of(evidence, candidates, tolerance, &Freedom::EACH)
-}
-
-/// The same, refined with some freedoms only.
-pub(super) fn best_of(
-    evidence: &Evidence,
-    candidates: Vec<Surface>,
-    tolerance: f64,
-    freedoms: &[Freedom],
-) -> Option<Surface> {
     // Outlines cost most, and can only add to the misfit of points.
     let mut points: Vec<(f64, Surface)> = candidates
         .into_iter()
@@ -66,7 +56,7 @@ pub(super) fn best_of(
     }
     judged
         .into_iter()
-        .filter_map(|(off, surface)| settled(evidence, surface, off, tolerance, freedoms))
+        .filter_map(|(off, surface)| settled(evidence, surface, off, tolerance))
         .min_by(|a, b| {
             let cost = |(off, surface): &(f64, Surface)| off + kinks(evidence, surface);
             cost(a).total_cmp(&cost(b))
@@ -80,13 +70,12 @@ fn settled(
     surface: Surface,
     off: f64,
     tolerance: f64,
-    freedoms: &[Freedom],
 ) -> Option<(f64, Surface)> {
     let mut best = (off, surface);
     if off <= EXACT * evidence.size {
         return Some(best);
     }
-    for &freedom in freedoms {
+    for freedom in [Freedom::AlongAxis, Freedom::Shifts, Freedom::All] {
         let better = refined(evidence, surface, freedom);
         let new = misfit(evidence, &better);
         if new < best.0 && better.is_sound() {

@@ -31,17 +31,12 @@ pub(super) use bend::between as bend_between;
 pub(super) use cylinder::touching as touching_circle;
 use evidence::Evidence;
 pub(super) use flat::best_plane;
-use refine::Freedom;
 pub(super) use ring::Ring;
 pub(super) use truth::true_surfaces;
 pub(super) use wholes::touching;
 
 /// Rounds in which surfaces help their neighbours; the first ones ask for a better fit.
 const ROUNDS: [f64; 4] = [2e-5, 1e-4, 3e-4, 3e-4];
-
-/// Parts of a cone by themselves keep the axis that others give in the rounds before this one: a small
-/// part fits any axis, and should not before the whole has been tried.
-const TURNING: usize = 2;
 
 /// A surface may be as far off as this many errors of a drawn point in any case.
 const ERRORS: f64 = 20.0;
@@ -78,9 +73,9 @@ pub(super) fn surfaces_of(
             || !whole.iter().any(|&f| sheet.is_swept(f))
     });
     // What was known, and how good a fit was asked for, when a whole was last tried.
-    let mut tried = vec![(usize::MAX, 0.0, false); wholes.len()];
-    for (i, share) in ROUNDS.into_iter().enumerate() {
-        let turning = i >= TURNING;
+    let mut tried = vec![(usize::MAX, [0.0; 2]); wholes.len()];
+    let mut before = 0.0;
+    for share in ROUNDS {
         for (whole, tried) in wholes.iter().zip(&mut tried) {
             if whole.iter().all(|&f| known[f] != Surface::Unknown) {
                 continue;
@@ -93,11 +88,12 @@ pub(super) fn surfaces_of(
                 share
             };
             let found = known.iter().filter(|s| **s != Surface::Unknown).count();
-            if *tried != (found, share, turning) {
-                *tried = (found, share, turning);
-                round(sheet, heights, whole, share, turning, &mut known);
+            if *tried != (found, [share, before]) {
+                *tried = (found, [share, before]);
+                round(sheet, heights, whole, [share, before], &mut known);
             }
         }
+        before = share;
     }
     for whole in &wholes {
         if whole.iter().any(|&f| known[f] != Surface::Unknown) {
@@ -156,14 +152,14 @@ fn any(evidence: &Evidence) -> Vec<Surface> {
     found
 }
 
-/// Tries a whole, then each of its faces that are not known yet, within a share of the drawing's size;
-/// faces by themselves may have an axis of their own only if `turning`.
+/// Tries a whole, then each of its faces that are not known yet, within the first share of the drawing's
+/// size. Parts of a cone have to fit within the second one, that of the round before: a small part fits
+/// cones of any axis and angle, and should not before the whole has been tried.
 fn round(
     sheet: &Sheet<'_>,
     heights: &Heights,
     whole: &[usize],
-    share: f64,
-    turning: bool,
+    [share, before]: [f64; 2],
     known: &mut [Surface],
 ) {
     let singles = (whole.len() > 1).then(|| whole.chunks(1)).into_iter();
@@ -176,8 +172,14 @@ fn round(
             continue;
         }
         let kind = wholes::kind(sheet, part);
-        let tolerance = match kind {
-            SurfaceKind::Other => ROUNDS[0] * sheet.size,
+        let share = match kind {
+            SurfaceKind::Cone if part.len() < whole.len() => before,
+            SurfaceKind::Other => ROUNDS[0],
+            _ => share,
+        };
+        let tolerance = match share {
+            0.0 => continue,
+            _ if kind == SurfaceKind::Other => share * sheet.size,
             _ => (share * sheet.size).max(ERRORS * sheet.directions.precision),
         };
         let candidates = match kind {
@@ -194,9 +196,7 @@ fn round(
             SurfaceKind::Other => any(&evidence),
             _ => continue,
         };
-        let fixed = kind == SurfaceKind::Cone && part.len() < whole.len() && !turning;
-        let freedoms = &Freedom::EACH[..if fixed { 2 } else { 3 }];
-        let best = |candidates| judge::best_of(&evidence, candidates, tolerance, freedoms);
+        let best = |candidates| judge::best(&evidence, candidates, tolerance);
         let found = best(candidates).or_else(|| {
             if kind != SurfaceKind::Torus {
                 return None;

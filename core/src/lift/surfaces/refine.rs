@@ -20,11 +20,6 @@ pub(super) enum Freedom {
     All,
 }
 
-impl Freedom {
-    /// From the least.
-    pub(super) const EACH: [Self; 3] = [Self::AlongAxis, Self::Shifts, Self::All];
-}
-
 /// Number of parameters: three shifts, two lengths, two turns of the axis.
 const PARAMETERS: usize = 7;
 

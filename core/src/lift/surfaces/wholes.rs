@@ -56,14 +56,17 @@ fn is_fold(sheet: &Sheet<'_>, edge: usize) -> bool {
         && sheet.drawing.is_fold(edge)
 }
 
-/// Whether an edge is an outline of two faces of one kind that are not taken for one. Two spheres may
-/// meet in a circle around any axis.
+/// Whether an edge is an outline of two faces of one kind that are not taken for one.
 pub(super) fn is_outline(sheet: &Sheet<'_>, edge: usize, faces: [usize; 2]) -> bool {
     let [kind, other] = faces.map(|f| sheet.faces[f].kind);
-    let lone = kind != SurfaceKind::Sphere && is_lone(sheet, edge);
-    // Of surfaces of any kind one fits a part by chance, so that doubtful outlines count.
-    let sure = sheet.camera().is_parallel() || kind == SurfaceKind::Other;
-    kind == other && (lone || (sure && is_fold(sheet, edge)))
+    kind == other
+        && match kind {
+            // Two spheres may meet in a circle around any axis.
+            SurfaceKind::Sphere => sheet.camera().is_parallel() && is_fold(sheet, edge),
+            // Of surfaces of any kind one fits a part by chance, so that doubtful outlines count.
+            SurfaceKind::Other => is_lone(sheet, edge) || is_fold(sheet, edge),
+            _ => is_lone(sheet, edge),
+        }
 }
 
 fn wholes(
