@@ -31,6 +31,10 @@ const PARALLEL: f64 = 1e-2;
 /// A bend must fit its outlines that many times as well as any other.
 const CLEARLY: f64 = 4.0;
 
+/// Largest distance by which lines of sight to the outlines may miss a bend, as a share of its tube's radius:
+/// circles around one axis, too, may be drawn as the ends of a bend.
+const MISSES: f64 = 0.01;
+
 /// Points of an outline that are looked at.
 const POINTS: usize = 8;
 
@@ -202,7 +206,9 @@ impl Bend {
         }
         fitting.sort_by(|a, b| a.0.total_cmp(&b.0));
         let (gap, a, b) = *fitting.first()?;
-        if fitting.get(1).is_some_and(|rival| rival.0 <= CLEARLY * gap) {
+        if gap > MISSES * a.circle.radius
+            || (fitting.get(1)).is_some_and(|rival| rival.0 <= CLEARLY * gap)
+        {
             return None;
         }
         let look = if is_known[0] { b } else { a };

@@ -135,8 +135,10 @@ fn lift_exact(
             (shown + told, reading)
         })
         .collect();
-    // A normal that bends go on from is the true one of its circle.
-    if readings.iter().any(|(all, r)| *all > explained(r)) {
+    // A normal that bends go on from is the true one of its circle. A frame has no such doubt.
+    if readings.first().is_some_and(|(_, r)| r.is_frame()) {
+        readings.iter_mut().for_each(|(all, r)| *all = explained(r));
+    } else if readings.iter().any(|(all, r)| *all > explained(r)) {
         readings.sort_by_key(|(all, _)| std::cmp::Reverse(*all));
     }
     let most = readings.iter().map(|r| r.0).max().unwrap_or(0);
