@@ -7,6 +7,17 @@ use super::{CoEdge, Curve2, Drawing};
 /// Sine of the angle within which edges go on smoothly into each other.
 const SMOOTH: f64 = 0.25;
 
+/// Unit tangent with which a polyline leaves the first of three points: that of the parabola through
+/// them whose parameter is the polyline's length.
+pub(crate) fn leaving([a, b, c]: [DVec2; 3]) -> DVec2 {
+    let (h, k) = (a.distance(b), b.distance(c));
+    if h <= 0.0 || k <= 0.0 {
+        return (c - a).normalize_or_zero();
+    }
+    let (first, second) = ((b - a) / h, (c - b) / k);
+    (first - (second - first) * (h / (h + k))).normalize_or_zero()
+}
+
 impl Drawing {
     /// Unit tangent with which a co-edge leaves its origin.
     pub(crate) fn tangent(&self, c: CoEdge) -> DVec2 {
@@ -20,16 +31,7 @@ impl Drawing {
                 let sense = arc.sweep.signum() * if c.is_reversed() { -1.0 } else { 1.0 };
                 arc.derivative(t).normalize_or_zero() * sense
             }
-            Curve2::Polyline => {
-                // Of the parabola through three points, its parameter the polyline's length.
-                let (a, b, c) = (at(0), at(1), at(2.min(n - 1)));
-                let (h, k) = (a.distance(b), b.distance(c));
-                if h <= 0.0 || k <= 0.0 {
-                    return (c - a).normalize_or_zero();
-                }
-                let (first, second) = ((b - a) / h, (c - b) / k);
-                (first - (second - first) * (h / (h + k))).normalize_or_zero()
-            }
+            Curve2::Polyline => leaving([at(0), at(1), at(2.min(n - 1))]),
         }
     }
 

@@ -24,6 +24,7 @@ pub use coedge::CoEdge;
 pub use curve::{Curve2, EllipseArc};
 pub use diagnose::diagnose;
 pub use error::DrawingError;
+pub(crate) use fold::leaving;
 pub use format::read;
 pub use graph::Graph;
 pub use model::{Drawing, Edge, Limits, Projection, SurfaceKind, Truth, TruthFace};

@@ -187,7 +187,7 @@ pub struct Lift {
 pub struct LiftedCurve {
     /// Edge index, from 0.
     pub edge: usize,
-    /// Points along it, camera frame, from the edge's first vertex to its second.
+    /// Points along it, camera frame and drawing units, from the edge's first vertex to its second.
     pub points: Vec<DVec3>,
     /// Unit tangents at both ends, along the curve.
     pub tangents: [DVec3; 2],

@@ -90,7 +90,8 @@ fn settled(
 
 /// A surface between whole circles only that does not agree with the outlines, if none does: it
 /// passes through all known points, and is the one that outlines and smooth neighbours speak for
-/// most; a cylinder or cone, which builds most easily, need not have curved outlines. A band between two circles is better closed by it than by a surface of no kind.
+/// most; a cylinder or cone, which builds most easily, need not have curved outlines. A band between
+/// two circles is better closed by it than by a surface of no kind.
 pub(super) fn stand_in(evidence: &Evidence, candidates: Vec<Surface>) -> Option<Surface> {
     let mut rings = evidence.bounds.iter();
     if evidence.bounds.len() < 2 || !rings.all(|b| b.ring.is_some()) {

@@ -66,15 +66,14 @@ pub(super) fn surfaces_of(
         })
         .collect();
     let mut wholes = wholes::surfaces(sheet);
-    wholes.retain(|whole| whole.iter().any(|&f| asked(f)));
     // What a section sweeps along a helix may pass for a usual surface where it is short.
-    wholes.retain(|whole| {
-        wholes::kind(sheet, whole) != SurfaceKind::Other
-            || !whole.iter().any(|&f| sheet.is_swept(f))
-    });
+    let swept = |whole: &[usize]| {
+        wholes::kind(sheet, whole) == SurfaceKind::Other && whole.iter().any(|&f| sheet.is_swept(f))
+    };
+    wholes.retain(|whole| whole.iter().any(|&f| asked(f)) && !swept(whole));
     // What was known, and how good a fit was asked for, when a whole was last tried.
-    let mut tried = vec![(usize::MAX, [0.0; 2]); wholes.len()];
-    let mut before = 0.0;
+    let mut tried = vec![(usize::MAX, 0.0, None); wholes.len()];
+    let mut before = None;
     for share in ROUNDS {
         for (whole, tried) in wholes.iter().zip(&mut tried) {
             if whole.iter().all(|&f| known[f] != Surface::Unknown) {
@@ -88,31 +87,27 @@ pub(super) fn surfaces_of(
                 share
             };
             let found = known.iter().filter(|s| **s != Surface::Unknown).count();
-            if *tried != (found, [share, before]) {
-                *tried = (found, [share, before]);
-                round(sheet, heights, whole, [share, before], &mut known);
+            if *tried != (found, share, before) {
+                *tried = (found, share, before);
+                round(sheet, heights, whole, (share, before), &mut known);
             }
         }
-        before = share;
+        before = Some(share);
     }
     for whole in &wholes {
         if whole.iter().any(|&f| known[f] != Surface::Unknown) {
             continue;
         }
+        let evidence = Evidence::new(sheet, heights, whole, &known);
         let instead = match wholes::kind(sheet, whole) {
-            SurfaceKind::Other => {
-                let evidence = Evidence::new(sheet, heights, whole, &known);
-                judge::stand_in(&evidence, any(&evidence))
-            }
-            SurfaceKind::Cone => tip::hidden(sheet, heights, whole, &known),
+            SurfaceKind::Other => judge::stand_in(&evidence, any(&evidence)),
+            SurfaceKind::Cone => tip::hidden(sheet, heights, whole, &evidence),
             _ => None,
         };
-        let other = || {
-            any_kind
-                .then(|| another(sheet, heights, whole, &known))
-                .flatten()
+        let instead = match instead {
+            None if any_kind => another(&evidence),
+            _ => instead,
         };
-        let instead = instead.or_else(other);
         whole
             .iter()
             .for_each(|&f| known[f] = instead.unwrap_or(Surface::Unknown));
@@ -122,22 +117,16 @@ pub(super) fn surfaces_of(
 
 /// A surface of another kind than was said, if it fits as if the drawing were made for it: a torus is
 /// easily taken for a sphere.
-fn another(
-    sheet: &Sheet<'_>,
-    heights: &Heights,
-    whole: &[usize],
-    known: &[Surface],
-) -> Option<Surface> {
-    let evidence = Evidence::new(sheet, heights, whole, known);
+fn another(evidence: &Evidence) -> Option<Surface> {
     let rings = evidence.rings().count();
     // One circle is on surfaces of all kinds.
     if rings == evidence.bounds.len() && rings + evidence.outlines.len() < 2 {
         return None;
     }
-    let axes = axes::axes(&evidence);
-    let bulges = axes.iter().flat_map(|a| profile::bulges(&evidence, a));
-    let candidates = any(&evidence).into_iter().chain(bulges).collect();
-    judge::best(&evidence, candidates, ROUNDS[0] * sheet.size)
+    let axes = axes::axes(evidence);
+    let bulges = axes.iter().flat_map(|a| profile::bulges(evidence, a));
+    let candidates = any(evidence).into_iter().chain(bulges).collect();
+    judge::best(evidence, candidates, ROUNDS[0] * evidence.size)
 }
 
 /// Candidates for a surface of another kind: it may be one of ours in another form, as a spline.
@@ -159,7 +148,7 @@ fn round(
     sheet: &Sheet<'_>,
     heights: &Heights,
     whole: &[usize],
-    [share, before]: [f64; 2],
+    (share, before): (f64, Option<f64>),
     known: &mut [Surface],
 ) {
     let singles = (whole.len() > 1).then(|| whole.chunks(1)).into_iter();
@@ -172,15 +161,14 @@ fn round(
             continue;
         }
         let kind = wholes::kind(sheet, part);
-        let share = match kind {
-            SurfaceKind::Cone if part.len() < whole.len() => before,
-            SurfaceKind::Other => ROUNDS[0],
-            _ => share,
-        };
-        let tolerance = match share {
-            0.0 => continue,
-            _ if kind == SurfaceKind::Other => share * sheet.size,
-            _ => (share * sheet.size).max(ERRORS * sheet.directions.precision),
+        let least = ERRORS * sheet.directions.precision;
+        let tolerance = match (kind, before) {
+            (SurfaceKind::Other, _) => ROUNDS[0] * sheet.size,
+            (SurfaceKind::Cone, None) if part.len() < whole.len() => continue,
+            (SurfaceKind::Cone, Some(before)) if part.len() < whole.len() => {
+                (before * sheet.size).max(least)
+            }
+            _ => (share * sheet.size).max(least),
         };
         let candidates = match kind {
             SurfaceKind::Sphere => sphere::spheres(&evidence),

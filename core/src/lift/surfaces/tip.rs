@@ -17,9 +17,8 @@ pub(super) fn hidden(
     sheet: &Sheet<'_>,
     heights: &Heights,
     whole: &[usize],
-    known: &[Surface],
+    evidence: &Evidence,
 ) -> Option<Surface> {
-    let evidence = Evidence::new(sheet, heights, whole, known);
     let (ring, _) = evidence.rings().next()?;
     let all_one = evidence.rings().count() == evidence.bounds.len()
         && evidence.rings().all(|(r, _)| {

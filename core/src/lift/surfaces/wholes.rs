@@ -77,18 +77,20 @@ fn wholes(
     let kind = |f: usize| sheet.faces[f].kind;
     let mut parts = Sets::new(sheet.faces.len());
     let mut circles: Vec<(usize, usize)> = Vec::new();
+    // Where an outline is told for sure, faces of two kinds are parts of one surface as well.
+    let parts_one = |edge: usize, a: usize, b: usize| {
+        if kind(a) == kind(b) {
+            joins(kind(a), edge)
+        } else {
+            let round = counts(kind(a)) && counts(kind(b));
+            round && sheet.camera().is_parallel() && is_fold(sheet, edge)
+        }
+    };
     for edge in 0..sheet.drawing.edges.len() {
         if let [a, b] = *sheet.neighbours(edge)
             && !sheet.is_planar(a)
             && !sheet.is_planar(b)
-            && if kind(a) == kind(b) {
-                joins(kind(a), edge)
-            } else {
-                sheet.camera().is_parallel()
-                    && counts(kind(a))
-                    && counts(kind(b))
-                    && is_fold(sheet, edge)
-            }
+            && parts_one(edge, a, b)
         {
             parts.join(a, b);
         }

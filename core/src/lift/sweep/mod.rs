@@ -108,13 +108,8 @@ impl Sweep {
 /// All sweeps of a drawing whose camera is known.
 pub(super) fn sweeps(drawing: &Drawing) -> Vec<Sweep> {
     let size = drawing.size();
-    let camera = match drawing.projection {
-        Projection::Orthographic => Camera::Parallel,
-        Projection::Perspective { focal: Some(focal) } => Camera::Central {
-            principal: DVec2::ZERO,
-            focal: focal / size,
-        },
-        Projection::Perspective { focal: None } => return Vec::new(),
+    let Some(camera) = camera(drawing, size) else {
+        return Vec::new();
     };
     let mut seeds = start::seeds(drawing);
     let mut found = Vec::new();
@@ -131,6 +126,17 @@ pub(super) fn sweeps(drawing: &Drawing) -> Vec<Sweep> {
         found.push(sweep(&fitted, size));
     }
     found
+}
+
+/// The camera of a drawing in units of `unit`; `None` if its focal length is not given.
+fn camera(drawing: &Drawing, unit: f64) -> Option<Camera> {
+    match drawing.projection {
+        Projection::Orthographic => Some(Camera::Parallel),
+        Projection::Perspective { focal } => focal.map(|focal| Camera::Central {
+            principal: DVec2::ZERO,
+            focal: focal / unit,
+        }),
+    }
 }
 
 /// A sweep from where its fit starts, with all edges that are on it.
@@ -211,13 +217,7 @@ pub(super) fn readings(
 
 /// The reading of a sweep's axis alone.
 fn own_reading(drawing: &Drawing, sweep: &Sweep) -> Directions {
-    let camera = match drawing.projection {
-        Projection::Perspective { focal: Some(focal) } => Camera::Central {
-            principal: DVec2::ZERO,
-            focal,
-        },
-        _ => Camera::Parallel,
-    };
+    let camera = camera(drawing, 1.0).unwrap_or_default();
     let axis = Axis {
         direction: sweep.axis,
         edges: Vec::new(),

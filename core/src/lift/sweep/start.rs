@@ -6,7 +6,7 @@ use glam::{DQuat, DVec2, DVec3};
 
 use super::fit::{Fitted, Member};
 use super::model::{Base, OWN, SHARED};
-use crate::drawing::{Curve2, Drawing, EllipseArc};
+use crate::drawing::{Curve2, Drawing, EllipseArc, leaving};
 use crate::lift::{Camera, circle_through};
 
 /// A point this far off an ellipse, in sizes, is not of a circle.
@@ -234,14 +234,14 @@ pub(super) fn joined(
     None
 }
 
-/// Unit tangent of a polyline at its first or last point, away from that: of the parabola through
-/// three points.
+/// Unit tangent of a polyline at its first or last point, away from that.
 fn away(points: &[DVec2], from_end: bool) -> DVec2 {
-    let at = |i: usize| points[if from_end { points.len() - 1 - i } else { i }];
-    if points.len() < 3 {
-        return (at(1) - at(0)).normalize_or_zero();
-    }
-    let (d, e) = (at(1) - at(0), at(2) - at(1));
-    let (s, t) = (d.length(), e.length());
-    (d / s - (e / t - d / s) * (s / (s + t))).normalize_or_zero()
+    let last = points.len() - 1;
+    leaving([0, 1, 2].map(|i: usize| {
+        points[if from_end {
+            last - i.min(last)
+        } else {
+            i.min(last)
+        }]
+    }))
 }
