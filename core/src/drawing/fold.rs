@@ -88,11 +88,7 @@ mod tests {
         ];
         let edges: Vec<Edge> = curves
             .into_iter()
-            .map(|(v, points)| Edge {
-                v,
-                curve: Curve2::recognise(&points),
-                points,
-            })
+            .map(|(v, points)| Edge::drawn(v, points))
             .collect();
         let vertices = vec![low, DVec2::Y, high, center - DVec2::X];
         let drawing = Drawing::orthographic(vertices, edges);

@@ -84,6 +84,16 @@ pub struct Edge {
 }
 
 impl Edge {
+    /// An edge along points, with the curve that they are recognised as.
+    #[cfg(test)]
+    pub(crate) fn drawn(v: [usize; 2], points: Vec<DVec2>) -> Self {
+        Self {
+            v,
+            curve: Curve2::recognise(&points),
+            points,
+        }
+    }
+
     /// Whether the edge is a straight segment.
     pub fn is_straight(&self) -> bool {
         matches!(self.curve, Curve2::Line)

@@ -13,6 +13,7 @@ mod chance;
 mod circle;
 mod completion;
 mod conflicts;
+mod dense;
 pub mod directions;
 mod error;
 mod evident;

@@ -7,13 +7,22 @@ use super::ring_torus;
 use crate::drawing::SurfaceKind;
 
 impl Surface {
-    /// Whether its lengths and angles are those of a surface.
-    pub(crate) fn is_sound(&self) -> bool {
+    /// What is wrong with its lengths and angles, if they are those of no surface.
+    pub(crate) fn fault(&self) -> Option<&'static str> {
+        let positive = |length: f64| length.is_finite() && length > 0.0;
         match *self {
-            Self::Plane { .. } | Self::Unknown => true,
-            Self::Cylinder { radius, .. } | Self::Sphere { radius, .. } => radius > 0.0,
-            Self::Cone { angle, .. } => angle > 0.0 && angle < std::f64::consts::FRAC_PI_2,
-            Self::Torus { major, minor, .. } => major > 0.0 && minor > 0.0,
+            Self::Cylinder { radius, .. } | Self::Sphere { radius, .. } if !positive(radius) => {
+                Some("its radius is not a positive number")
+            }
+            Self::Torus { major, minor, .. } if !positive(major) || !positive(minor) => {
+                Some("its radius is not a positive number")
+            }
+            Self::Cone { angle, .. }
+                if !positive(angle) || angle >= std::f64::consts::FRAC_PI_2 =>
+            {
+                Some("its angle is not between 0 and 90 degrees")
+            }
+            _ => None,
         }
     }
 

@@ -207,8 +207,7 @@ impl Scene {
             };
             let points: Vec<DVec2> = (0..=STEPS).map(|i| self.drawn(at(i))).collect();
             let v = [self.vertex(at(0)), self.vertex(at(STEPS))];
-            let curve = Curve2::recognise(&points);
-            self.edges.push(Edge { v, points, curve });
+            self.edges.push(Edge::drawn(v, points));
             outlines.push(self.edges.len() - 1);
         }
         let loops = [0.0, angle].map(|t| {

@@ -15,20 +15,10 @@ pub(super) fn checked(surface: &Support) -> Result<Support, &'static str> {
             surface.with_direction(unit.ok_or("it has no direction")?)
         }
     };
-    let positive = |length: f64| length.is_finite() && length > 0.0;
-    match support {
-        _ if !support.origin().is_finite() => Err("its position is not a finite number"),
-        Support::Cylinder { radius, .. } | Support::Sphere { radius, .. } if !positive(radius) => {
-            Err("its radius is not a positive number")
-        }
-        Support::Torus { major, minor, .. } if !positive(major) || !positive(minor) => {
-            Err("its radius is not a positive number")
-        }
-        Support::Cone { angle, .. } if !positive(angle) || angle >= std::f64::consts::FRAC_PI_2 => {
-            Err("its angle is not between 0 and 90 degrees")
-        }
-        _ => Ok(support),
+    if !support.origin().is_finite() {
+        return Err("its position is not a finite number");
     }
+    support.fault().map_or(Ok(support), Err)
 }
 
 /// The surface of a face whose outward normal is the gradient, or its opposite if `hollow`.

@@ -73,7 +73,7 @@ mod tests {
     use glam::DVec2;
 
     use super::*;
-    use crate::drawing::{Curve2, Edge};
+    use crate::drawing::Edge;
 
     /// A cylinder that stands on its end, seen from above: two circles and two silhouettes.
     fn cylinder() -> Drawing {
@@ -94,11 +94,7 @@ mod tests {
         ];
         let edges: Vec<Edge> = curves
             .into_iter()
-            .map(|(v, points)| Edge {
-                v,
-                curve: Curve2::recognise(&points),
-                points,
-            })
+            .map(|(v, points)| Edge::drawn(v, points))
             .collect();
         Drawing::orthographic(
             vec![

@@ -224,11 +224,7 @@ mod tests {
         let half = |from: f64| -> Edge {
             let at = |k: i32| DVec2::from_angle(from + PI * f64::from(k) / 24.0);
             let points: Vec<DVec2> = (0..=24).map(|k| at(k) * DVec2::new(1.0, 0.4)).collect();
-            Edge {
-                v: if from == 0.0 { [0, 1] } else { [1, 0] },
-                curve: Curve2::recognise(&points),
-                points,
-            }
+            Edge::drawn(if from == 0.0 { [0, 1] } else { [1, 0] }, points)
         };
         let drawing =
             Drawing::orthographic(vec![DVec2::X, DVec2::NEG_X], vec![half(0.0), half(PI)]);

@@ -91,11 +91,7 @@ fn arcs(ends: &[[usize; 2]], sweeps: &[(f64, f64)]) -> Drawing {
         .map(|(&v, &(start, sweep))| {
             let point = |k| DVec2::from_angle(start + sweep * f64::from(k) / 32.0);
             let points: Vec<DVec2> = (0..=32).map(point).collect();
-            Edge {
-                v,
-                curve: Curve2::recognise(&points),
-                points,
-            }
+            Edge::drawn(v, points)
         })
         .collect();
     let vertices = (0..ends.len()).map(|k| edges[k].points[0]).collect();

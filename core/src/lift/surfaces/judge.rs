@@ -78,7 +78,7 @@ fn settled(
     for freedom in [Freedom::AlongAxis, Freedom::Shifts, Freedom::All] {
         let better = refined(evidence, surface, freedom);
         let new = misfit(evidence, &better);
-        if new < best.0 && better.is_sound() {
+        if new < best.0 && better.fault().is_none() {
             best = (new, better);
         }
         if best.0 <= tolerance {

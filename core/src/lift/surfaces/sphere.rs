@@ -4,8 +4,8 @@ use glam::DVec3;
 
 use super::evidence::Evidence;
 use super::flat::best_plane;
-use super::refine::solve;
 use crate::lift::Surface;
+use crate::lift::dense::solve;
 
 /// Spheres that the boundary suggests: by an outline, through all points, or touching the
 /// neighbours of a circle.

@@ -4,6 +4,7 @@
 use glam::DVec2;
 
 use super::model::{Base, OWN, SHARED, Spine};
+use crate::lift::dense::solve;
 
 /// Most steps, and trials of one step.
 const STEPS: usize = 50;
@@ -168,35 +169,21 @@ impl Normal {
         }
     }
 
-    /// The solution with each unknown held by a share of its own row (Marquardt 1963), by Cholesky's
-    /// factors; `None` if they do not exist.
+    /// The solution with each unknown held by a share of its own row (Marquardt 1963); `None` if it is
+    /// not known to any precision.
     fn damped(&self, share: f64) -> Option<Vec<f64>> {
         let count = self.right.len();
         // Unknowns of unit columns.
         let scale: Vec<f64> = (0..count)
             .map(|i| self.matrix[i][i].sqrt().max(1e-12).recip())
             .collect();
-        let mut factor = vec![vec![0.0; count]; count];
-        let mut x = vec![0.0; count];
-        for i in 0..count {
-            for j in 0..=i {
-                let (head, row) = (&factor[j][..j], &factor[i][..j]);
-                let sum: f64 = head.iter().zip(row).map(|(a, b)| a * b).sum();
-                let held = if i == j { share } else { 0.0 };
-                let rest = self.matrix[i][j] * scale[i] * scale[j] + held - sum;
-                factor[i][j] = if i == j {
-                    rest.sqrt()
-                } else {
-                    rest / factor[j][j]
-                };
-            }
-            let known: f64 = factor[i][..i].iter().zip(&x).map(|(a, b)| a * b).sum();
-            x[i] = (self.right[i] * scale[i] - known) / factor[i][i];
-        }
-        for i in (0..count).rev() {
-            let later: f64 = (i + 1..count).map(|j| factor[j][i] * x[j]).sum();
-            x[i] = (x[i] - later) / factor[i][i];
-        }
+        let entry = |i: usize, j: usize| {
+            let held = if i == j { share } else { 0.0 };
+            self.matrix[i][j] * scale[i] * scale[j] + held
+        };
+        let matrix = (0..count).map(|i| (0..count).map(|j| entry(i, j)).collect());
+        let right = self.right.iter().zip(&scale).map(|(r, s)| r * s);
+        let mut x = solve(matrix.collect(), right.collect())?;
         x.iter_mut().zip(&scale).for_each(|(x, s)| *x *= s);
         x.iter().all(|x| x.is_finite()).then_some(x)
     }

@@ -4,7 +4,7 @@ use glam::{DMat3, DVec2, DVec3};
 
 use super::*;
 use crate::Progress;
-use crate::drawing::{CoEdge, Curve2, Edge, SurfaceKind};
+use crate::drawing::{CoEdge, Edge, SurfaceKind};
 use crate::identify::{Evidence, Face};
 use crate::lift::{LiftOptions, lift};
 
@@ -75,11 +75,7 @@ fn drawn(washer: &Washer, camera: Camera, away: f64) -> (Drawing, Vec<f64>, Vec<
             evidence: Evidence::default(),
         }
     });
-    let edge = |(v, points): ([usize; 2], Vec<DVec2>)| Edge {
-        v,
-        curve: Curve2::recognise(&points),
-        points,
-    };
+    let edge = |(v, points): ([usize; 2], Vec<DVec2>)| Edge::drawn(v, points);
     let vertices = ends.iter().map(|p| image(*p)).collect();
     let mut drawing = Drawing::orthographic(vertices, edges.into_iter().map(edge).collect());
     if let Camera::Central { focal, .. } = camera {
@@ -166,11 +162,7 @@ fn circles_and_other_curves_are_no_sweeps() {
     for k in 0..3 {
         let points: Vec<DVec2> = (0..=40).map(|i| point(k, 0.1 * f64::from(i))).collect();
         vertices.extend([points[0], points[40]]);
-        edges.push(Edge {
-            v: [2 * k, 2 * k + 1],
-            curve: Curve2::recognise(&points),
-            points,
-        });
+        edges.push(Edge::drawn([2 * k, 2 * k + 1], points));
     }
     assert!(sweeps(&Drawing::orthographic(vertices, edges)).is_empty());
 }

@@ -6,7 +6,7 @@ use glam::{DMat3, DVec3};
 
 use super::links::{Link, links};
 use super::shapes::Shapes;
-use crate::drawing::{CoEdge, Curve2, Drawing, Edge, Graph, SurfaceKind};
+use crate::drawing::{CoEdge, Drawing, Edge, Graph, SurfaceKind};
 use crate::identify::{Evidence, Face};
 use crate::lift::{Pieces, Readings};
 
@@ -61,11 +61,7 @@ pub(super) fn drawn(all: &[Round]) -> (Drawing, Vec<Face>) {
         }
         let mut push = |ends: [usize; 2], points: Vec<DVec3>| {
             let points: Vec<_> = points.into_iter().map(|p| p.truncate()).collect();
-            edges.push(Edge {
-                v: ends.map(|k| v + k),
-                curve: Curve2::recognise(&points),
-                points,
-            });
+            edges.push(Edge::drawn(ends.map(|k| v + k), points));
         };
         let arc = |from: f64, to: f64, z: f64| -> Vec<DVec3> {
             let angles = (0..=32).map(|k| from + (to - from) * f64::from(k) / 32.0);

@@ -31,11 +31,7 @@ fn turned(profile: &[(f64, f64)]) -> Drawing {
                 (view * DVec3::new(radius * cos, radius * sin, height)).truncate()
             };
             let points: Vec<_> = (0..=64).map(point).collect();
-            Edge {
-                v: [k, k],
-                curve: Curve2::recognise(&points),
-                points,
-            }
+            Edge::drawn([k, k], points)
         })
         .collect();
     Drawing::orthographic(edges.iter().map(|e| e.points[0]).collect(), edges)
