@@ -12,7 +12,7 @@ use crate::lift::{Camera, Lift, LiftedCurve};
 use super::curves::{self, Place};
 use super::lengths::Lengths;
 use super::orient::orient;
-use super::snap::{Measured, snap};
+use super::snap::{Joint, Measured, snap};
 use super::support::{Support, checked, oriented};
 use super::uses::{Use, uses};
 use super::vertices::Incidence;
@@ -49,6 +49,25 @@ const STEPS: usize = 24;
 /// [`PlanError`] naming the face or edge that does not close, cannot be built or does not fit.
 pub fn plan(drawing: &Drawing, faces: &[Face], lift: &Lift, options: &PlanOptions) -> Result<Plan> {
     check(drawing, faces, lift, options)?;
+    let size = drawing.size();
+    let least = SNAP_LEAST * size;
+    let length = (10.0 * lift.residual).clamp(least, SNAP_MOST * size);
+    let first = snapped(drawing, faces, lift, options, length);
+    if first.is_ok() || length <= least {
+        return first;
+    }
+    // One doubtful face makes the residual large; snapping by as much may move what was right.
+    snapped(drawing, faces, lift, options, least).or(first)
+}
+
+/// The plan with surfaces snapped within a length.
+fn snapped(
+    drawing: &Drawing,
+    faces: &[Face],
+    lift: &Lift,
+    options: &PlanOptions,
+    snap_length: f64,
+) -> Result<Plan> {
     // What is inexact is planned as it was meant.
     let regular = lift.regular.as_ref().map(|r| r.applied(drawing));
     let drawing = regular.as_ref().unwrap_or(drawing);
@@ -81,7 +100,6 @@ pub fn plan(drawing: &Drawing, faces: &[Face], lift: &Lift, options: &PlanOption
         .collect();
     let view = View::new(lift.camera, rotation);
     let size = drawing.size();
-    let snap_length = (10.0 * lift.residual).clamp(SNAP_LEAST * size, SNAP_MOST * size);
     let lifted: Vec<DVec3> = drawing
         .vertices
         .iter()
@@ -92,11 +110,18 @@ pub fn plan(drawing: &Drawing, faces: &[Face], lift: &Lift, options: &PlanOption
     let measured = measured(drawing, faces, lift, &view, &lifted)?;
     let tips = (0..faces.len()).filter(|&f| matches!(measured[f].support, Support::Cone { .. }));
     notices.extend(tips.filter_map(|f| assumed_tip(faces, &uses, f)));
-    let mut smooth = smooth_pairs(drawing, faces, &uses, &measured);
+    let mut smooth = smooth_joints(drawing, faces, &uses, &measured, &|e| {
+        let ends = drawing.edges[e].v.map(|v| lifted[v]);
+        let outlines = |u: &Use| {
+            let surface = &measured[u.face].support;
+            silhouette::is_outline(surface, &drawing.edges[e], ends, &view)
+        };
+        uses[e].iter().any(outlines)
+    });
     if lift.regular.is_some() {
         // Halves of one cylinder have one surface already, and others are different ones.
-        smooth.retain(|&[a, b]| {
-            let pair = [a, b].map(|f| measured[f].support);
+        smooth.retain(|joint| {
+            let pair = joint.faces.map(|f| measured[f].support);
             pair[0] == pair[1] || !pair.iter().all(|s| matches!(s, Support::Cylinder { .. }))
         });
     }
@@ -313,13 +338,15 @@ fn stands_in(kind: SurfaceKind, support: &Support) -> bool {
 }
 
 /// Pairs of faces that an outline may part: straight, unless the surface is a sphere or a torus, or
-/// one that stands in for another kind.
-fn smooth_pairs(
+/// one that stands in for another kind. `is_outline` tells which edges are outlines of a face's surface
+/// as it was lifted.
+fn smooth_joints(
     drawing: &Drawing,
     faces: &[Face],
     uses: &[[Use; 2]],
     measured: &[Measured],
-) -> Vec<[usize; 2]> {
+    is_outline: &dyn Fn(usize) -> bool,
+) -> Vec<Joint> {
     let doubly_curved = |face: usize| {
         let support = &measured[face].support;
         matches!(support, Support::Sphere { .. } | Support::Torus { .. })
@@ -327,9 +354,13 @@ fn smooth_pairs(
     let other = |u: &Use| stands_in(faces[u.face].kind, &measured[u.face].support);
     uses.iter()
         .zip(&drawing.edges)
-        .filter(|([a, b], edge)| {
+        .enumerate()
+        .filter(|(_, ([a, b], edge))| {
             edge.is_straight() != doubly_curved(a.face) || (other(a) && other(b))
         })
-        .map(|([a, b], _)| [a.face, b.face])
+        .map(|(e, ([a, b], _))| Joint {
+            faces: [a.face, b.face],
+            outline: is_outline(e),
+        })
         .collect()
 }

@@ -50,7 +50,7 @@ void fit(const Model &model, std::size_t face, std::size_t edge, double distance
   if (distance > model.tolerance) {
     throw BuildFault(Fault::Edge, edge + 1,
                      "it lies " + length_text(distance, model) + " off the surface of face " +
-                         std::to_string(face + 1));
+                         std::to_string(model.faces[face].source));
   }
   const double tolerance = covering(distance);
   const TopoDS_Edge &shape = topology.edges[edge];

@@ -83,6 +83,8 @@ pub(crate) mod ffi {
         loops: Vec<Loop>,
         /// Shell that the face is in, from 0.
         shell: u32,
+        /// Face of the plan that it is, from 1, for messages.
+        source: u32,
     }
 
     /// A whole B-rep, in units in which its half diagonal is about 100.

@@ -272,6 +272,7 @@ fn encode_face(body: &Body, face: &BodyFace, shell: u32, factor: f64) -> ffi::Fa
             })
             .collect(),
         shell,
+        source: face.source as u32 + 1,
     }
 }
 

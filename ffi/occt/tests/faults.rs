@@ -62,6 +62,17 @@ fn edge_off_its_plane_is_named() {
 }
 
 #[test]
+fn face_that_an_edge_misses_has_its_number_in_the_plan() {
+    let mut plan = cylinder();
+    // The halves of the wall are one face in the kernel.
+    if let Surface3::Plane { origin, .. } = &mut plan.faces[3].surface {
+        origin.z += 0.1;
+    }
+    let error = fault(&plan).to_string();
+    assert!(error.contains("off the surface of face 4"), "{error}");
+}
+
+#[test]
 fn curve_that_misses_its_vertex_is_named() {
     let mut plan = cylinder();
     if let Curve3::Circle { radius, .. } = &mut plan.edges[1].curve {

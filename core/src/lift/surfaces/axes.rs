@@ -34,7 +34,8 @@ impl Axis {
     }
 }
 
-/// Axes of circles on the boundary, the largest first, and of neighbours; each once.
+/// Axes of circles on the boundary, the largest first, of neighbours, and those of the drawing
+/// through an apex; each once.
 pub(super) fn axes(evidence: &Evidence) -> Vec<Axis> {
     let mut rings: Vec<_> = evidence.rings().map(|(ring, _)| ring).collect();
     rings.sort_by(|a, b| b.radius.total_cmp(&a.radius));
@@ -56,6 +57,14 @@ pub(super) fn axes(evidence: &Evidence) -> Vec<Axis> {
         if let Surface::Sphere { center, .. } = bound.beside {
             for ring in &rings {
                 add(center, ring.normal);
+            }
+        }
+    }
+    if !evidence.bent {
+        // Straight outlines of a cone meet in its apex.
+        for (i, (p, _)) in evidence.outline_ends.iter().enumerate() {
+            if evidence.outline_ends[..i].iter().any(|(q, _)| q == p) {
+                evidence.directions.iter().for_each(|&d| add(*p, d));
             }
         }
     }

@@ -10,8 +10,9 @@ use crate::lift::circle::circle_fit;
 use crate::lift::heights::Heights;
 use crate::lift::sheet::Sheet;
 
-/// Largest distance, relative to the drawing's size, of a boundary point from a cylinder.
-const OFF_CYLINDER: f64 = 1e-3;
+/// Largest distance, relative to the drawing's size, of a boundary point from a cylinder: beyond it no
+/// solid can be built.
+const OFF_CYLINDER: f64 = 1e-4;
 
 /// Radians around a cylinder below which its outline fixes the radius better than a circle through
 /// its points.
@@ -33,8 +34,9 @@ pub(super) fn cylinder(sheet: &Sheet<'_>, heights: &Heights, face: usize) -> Opt
     {
         return Some(surface);
     }
-    let (surface, off) = fit(sheet, heights, &[face])?;
-    (off < OFF_CYLINDER * sheet.size).then_some(surface)
+    let own = fit(sheet, heights, &[face]);
+    own.filter(|(_, off)| *off < enough.max(OFF_CYLINDER * sheet.size))
+        .map(|(surface, _)| surface)
 }
 
 /// A cylindrical face and those beyond its straight edges, which may be its outlines; sorted.
@@ -102,7 +104,23 @@ fn fit(sheet: &Sheet<'_>, heights: &Heights, faces: &[usize]) -> Option<(Surface
         axis,
         radius,
     };
-    Some((surface, worst(&(center, radius))))
+    // A straight edge across the axis is on none.
+    let chords = faces.iter().flat_map(|&f| chords(sheet, heights, f));
+    let off = chords.map(|p| surface.distance(p).abs());
+    Some((surface, off.fold(worst(&(center, radius)), f64::max)))
+}
+
+/// The middles of a face's straight edges.
+fn chords<'a>(
+    sheet: &'a Sheet<'_>,
+    heights: &'a Heights,
+    face: usize,
+) -> impl Iterator<Item = DVec3> + 'a {
+    let edges = sheet.edges_of(face).iter();
+    edges.filter(|&&e| sheet.is_straight(e)).map(|&e| {
+        let [a, b] = sheet.drawing.edges[e].v.map(|v| vertex(sheet, heights, v));
+        a.midpoint(b)
+    })
 }
 
 /// The planes beside straight edges of a cylinder: a vertex of each edge, and the plane's normal.
@@ -233,10 +251,14 @@ mod tests {
         let directions = Directions::estimate(&drawing).unwrap();
         let sheet = Sheet::new(&drawing, &faces, &directions);
         let heights = solve::solve(&sheet).unwrap().heights(&sheet);
-        let found = cylinder(&sheet, &heights, bevel);
-        let Some(Surface::Cylinder { radius, .. }) = found else {
+        let found = fit(&sheet, &heights, &[bevel]);
+        let Some((Surface::Cylinder { radius, .. }, off)) = found else {
             panic!("{found:?}");
         };
         assert!((radius - 0.2).abs() < 1e-6, "{radius}");
+        // The straight edges of its ends are chords of a quarter turn.
+        let sagitta = 0.2 * (1.0 - f64::to_radians(45.0).cos());
+        assert!((off - sagitta).abs() < 1e-6, "{off}");
+        assert_eq!(cylinder(&sheet, &heights, bevel), None);
     }
 }

@@ -18,11 +18,32 @@ pub(super) fn plane(sheet: &Sheet<'_>, heights: &Heights, face: usize) -> Option
                 .normalize(),
         });
     }
-    let points: Vec<DVec3> = sheet.corners[face]
-        .iter()
-        .map(|&v| vertex(sheet, heights, v))
-        .collect();
-    let (origin, normal) = best_plane(&points)?;
+    through(&corners(sheet, heights, face))
+}
+
+/// The plane of a face of another kind whose edges are all straight, if its vertices are within a share
+/// of the drawing's size of it.
+pub(super) fn straight(
+    sheet: &Sheet<'_>,
+    heights: &Heights,
+    face: usize,
+    share: f64,
+) -> Option<Surface> {
+    let edges = sheet.edges_of(face);
+    let points = corners(sheet, heights, face);
+    let all = edges.iter().all(|&e| sheet.is_straight(e));
+    let found = all.then(|| through(&points)).flatten()?;
+    let on = |p: &DVec3| found.distance(*p).abs() <= share * sheet.size;
+    points.iter().all(on).then_some(found)
+}
+
+fn corners(sheet: &Sheet<'_>, heights: &Heights, face: usize) -> Vec<DVec3> {
+    let corners = sheet.corners[face].iter();
+    corners.map(|&v| vertex(sheet, heights, v)).collect()
+}
+
+fn through(points: &[DVec3]) -> Option<Surface> {
+    let (origin, normal) = best_plane(points)?;
     Some(Surface::Plane { origin, normal })
 }
 

@@ -59,7 +59,10 @@ pub(super) fn surfaces_of(
             let found = match sheet.faces[face].kind {
                 _ if !heights.are_known(&sheet.corners[face]) => None,
                 SurfaceKind::Plane => flat::plane(sheet, heights, face),
-                SurfaceKind::Cylinder => cylinder::cylinder(sheet, heights, face),
+                // A narrow one may be drawn as flat as a plane.
+                SurfaceKind::Cylinder => cylinder::cylinder(sheet, heights, face).or_else(|| {
+                    flat::straight(sheet, heights, face, ROUNDS[0]).filter(|_| any_kind)
+                }),
                 _ => None,
             };
             found.unwrap_or(Surface::Unknown)
@@ -142,8 +145,8 @@ fn any(evidence: &Evidence) -> Vec<Surface> {
 }
 
 /// Tries a whole, then each of its faces that are not known yet, within the first share of the drawing's
-/// size. Parts of a cone have to fit within the second one, that of the round before: a small part fits
-/// cones of any axis and angle, and should not before the whole has been tried.
+/// size. Parts have to fit within the second one, that of the round before: a small part fits cones of any
+/// axis and angle, or a torus that its outline rules out, and should not before the whole has been tried.
 fn round(
     sheet: &Sheet<'_>,
     heights: &Heights,
@@ -164,10 +167,8 @@ fn round(
         let least = ERRORS * sheet.directions.precision;
         let tolerance = match (kind, before) {
             (SurfaceKind::Other, _) => ROUNDS[0] * sheet.size,
-            (SurfaceKind::Cone, None) if part.len() < whole.len() => continue,
-            (SurfaceKind::Cone, Some(before)) if part.len() < whole.len() => {
-                (before * sheet.size).max(least)
-            }
+            (_, None) if part.len() < whole.len() => continue,
+            (_, Some(before)) if part.len() < whole.len() => (before * sheet.size).max(least),
             _ => (share * sheet.size).max(least),
         };
         let candidates = match kind {

@@ -4,13 +4,14 @@ use glam::DVec3;
 
 use crate::plan::support::Support;
 
-use super::{Group, LARGEST_TURN};
+use super::{Group, Joint, LARGEST_TURN};
 
 /// Halves of one surface may differ by this share of the radius: they were lifted one by one.
 const HALVES: f64 = 0.02;
 
-/// Joins faces of one curved surface that meet along an edge and are nearly the same.
-pub(super) fn halves(groups: Vec<Group>, smooth: &[[usize; 2]]) -> Vec<Group> {
+/// Joins faces of one curved surface that meet along an edge and are nearly the same: beyond an
+/// outline the surface goes on in any case, elsewhere a common one has to fit both within `tolerance`.
+pub(super) fn halves(groups: Vec<Group>, smooth: &[Joint], tolerance: f64) -> Vec<Group> {
     let mut root: Vec<usize> = (0..groups.len()).collect();
     let find = |root: &[usize], mut i: usize| {
         while root[i] != i {
@@ -18,8 +19,19 @@ pub(super) fn halves(groups: Vec<Group>, smooth: &[[usize; 2]]) -> Vec<Group> {
         }
         i
     };
-    for &[a, b] in smooth {
-        if near(&groups[a].support, &groups[b].support) {
+    let one = |joint: &Joint| {
+        let pair = joint.faces.map(|f| &groups[f]);
+        let most = tolerance
+            .max(1.5 * pair[0].gap(&pair[0].support))
+            .max(1.5 * pair[1].gap(&pair[1].support));
+        near(&pair[0].support, &pair[1].support)
+            && (joint.outline
+                || average(pair.map(Clone::clone).into())
+                    .is_some_and(|whole| whole.gap(&whole.support) <= most))
+    };
+    for joint in smooth {
+        if one(joint) {
+            let [a, b] = joint.faces;
             let (a, b) = (find(&root, a), find(&root, b));
             root[a.max(b)] = a.min(b);
         }
