@@ -10,6 +10,14 @@ use super::support::Support;
 use super::uses::Use;
 use super::view::View;
 
+/// Steps along a curve when loops are measured.
+const STEPS: usize = 24;
+
+/// The same where loops are compared whose areas differ by less than this share: polygons in a circle of
+/// so many corners are too small by one percent.
+const FINE: usize = 32 * STEPS;
+const ALIKE: f64 = 0.05;
+
 /// A face with its loops in the order and direction of the plan.
 #[derive(Debug, Clone)]
 pub(super) struct Oriented {
@@ -38,7 +46,7 @@ struct Draft {
 /// What is left is one choice for each shell: its volume is positive, or negative if it is a void
 /// inside another shell.
 ///
-/// `points` gives the points along a co-edge without the last one, `silhouette` tells which edges
+/// `points` gives the points along a co-edge at so many steps without the last one, `silhouette` tells which edges
 /// are outlines, along which a face is seen edge-on.
 pub(super) fn orient(
     loops: &[Vec<Vec<CoEdge>>],
@@ -46,7 +54,7 @@ pub(super) fn orient(
     uses: &[[Use; 2]],
     view: &View,
     silhouette: impl Fn(usize) -> bool,
-    points: impl Fn(CoEdge) -> Vec<DVec3>,
+    points: impl Fn(CoEdge, usize) -> Vec<DVec3>,
 ) -> Result<Vec<Oriented>, PlanError> {
     let drafts: Vec<Draft> = loops
         .iter()
@@ -85,25 +93,34 @@ fn draft(
     support: &Support,
     view: &View,
     silhouette: &impl Fn(usize) -> bool,
-    points: &impl Fn(CoEdge) -> Vec<DVec3>,
+    points: &impl Fn(CoEdge, usize) -> Vec<DVec3>,
 ) -> Draft {
-    let polylines: Vec<Vec<DVec3>> = loops
-        .iter()
-        .map(|walk| walk.iter().flat_map(|c| points(*c)).collect())
-        .collect();
+    let polyline = |walk: &[CoEdge], steps: usize| -> Vec<DVec3> {
+        walk.iter().flat_map(|c| points(*c, steps)).collect()
+    };
+    let polylines: Vec<_> = loops.iter().map(|walk| polyline(walk, STEPS)).collect();
     let all = || polylines.iter().flatten();
     // A surface that says nothing is taken to have its gradient towards the viewer.
     let bounds = loops.iter().flatten().filter(|c| !silhouette(c.edge()));
     let facing: Option<f64> = bounds
         .map(|c| {
             let seen = |p: &DVec3| support.gradient(*p).dot(view.toward(*p));
-            points(*c).iter().map(seen).sum::<f64>()
+            points(*c, STEPS).iter().map(seen).sum::<f64>()
         })
         .reduce(|a, b| a + b);
     let areas: Vec<f64> = polylines.iter().map(|p| drawn_area(p, view)).collect();
-    let outer = (0..loops.len())
-        .max_by(|&a, &b| areas[a].abs().total_cmp(&areas[b].abs()))
-        .unwrap_or(0);
+    let largest = areas.iter().fold(0.0, |m: f64, a| m.max(a.abs()));
+    let rivals: Vec<usize> = (0..loops.len())
+        .filter(|&i| areas[i].abs() >= (1.0 - ALIKE) * largest)
+        .collect();
+    let outer = match rivals[..] {
+        [only] => only,
+        _ => {
+            let area = |i: usize| drawn_area(&polyline(&loops[i], FINE), view).abs();
+            let rivals = rivals.iter().map(|&i| (area(i), i));
+            rivals.max_by(|a, b| a.0.total_cmp(&b.0)).map_or(0, |r| r.1)
+        }
+    };
     // Half of a whole sphere or ring is taken as it is given.
     let front = facing.map_or(areas[outer] > 0.0, |f| f >= 0.0);
     let turned: Vec<bool> = (0..loops.len())
@@ -211,4 +228,40 @@ fn is_inside(inner: &Shell, outer: &Shell, drafts: &[Draft]) -> bool {
     let (low, high) = bounds(inner);
     let (outer_low, outer_high) = bounds(outer);
     low.cmpgt(outer_low).all() && high.cmplt(outer_high).all()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lift::Camera;
+    use glam::DMat3;
+
+    #[test]
+    fn outer_loop_of_a_thin_ring_is_the_larger_circle_however_its_edges_are_cut() {
+        // The inner circle in halves, of twice the points, and the outer one in one piece.
+        let loops = [vec![1, 2], vec![-3]].map(|walk: Vec<i64>| {
+            let coedges = walk.into_iter().filter_map(CoEdge::from_signed);
+            coedges.collect::<Vec<_>>()
+        });
+        let points = |co: CoEdge, steps: usize| {
+            let (radius, from, turn) =
+                [(0.997, 0.0, 0.5), (0.997, 0.5, 0.5), (1.0, 0.0, 1.0)][co.edge()];
+            let angle = |i: usize| (from + turn * i as f64 / steps as f64) * std::f64::consts::TAU;
+            let place = |i| DVec3::new(angle(i).cos(), angle(i).sin(), 0.0) * radius;
+            let mut all: Vec<DVec3> = (0..=steps).map(place).collect();
+            if co.is_reversed() {
+                all.reverse();
+            }
+            all.pop();
+            all
+        };
+        let plane = Support::Plane {
+            origin: DVec3::ZERO,
+            normal: DVec3::Z,
+        };
+        let view = View::new(Camera::Parallel, DMat3::IDENTITY);
+        let draft = draft(&loops, &plane, &view, &|_| false, &points);
+        assert_eq!(draft.loops[0][0].edge(), 2);
+        assert_eq!(draft.turned, [true, true]);
+    }
 }

@@ -37,9 +37,6 @@ const DRAWN_ERRORS: f64 = 4.0;
 /// A dominant direction and a model axis are the same within this angle, radians.
 const SAME_AXIS: f64 = 0.01;
 
-/// Steps along a curve when loops are measured.
-const STEPS: usize = 24;
-
 /// Plans the B-rep of a lifted drawing.
 ///
 /// `faces` are the ones that were lifted, in the same order. The plan's edges and vertices are the
@@ -200,8 +197,8 @@ fn snapped(
         });
     }
 
-    let points = |co: CoEdge| {
-        let mut points = sample::polyline(&edges[co.edge()], &vertices, STEPS);
+    let points = |co: CoEdge, steps: usize| {
+        let mut points = sample::polyline(&edges[co.edge()], &vertices, steps);
         if co.is_reversed() {
             points.reverse();
         }

@@ -1,4 +1,5 @@
-//! Surfaces that touch: a plane beside a cylinder as at a fillet, two cylinders side by side.
+//! Surfaces that touch: a plane beside a cylinder as at a fillet, two cylinders side by side, the bends of
+//! a pipe.
 //!
 //! Where surfaces touch, their common points are not well determined: a hair more or less and they
 //! miss each other, or cut each other far from where they were meant to touch. So touching is made
@@ -22,20 +23,32 @@ const SWEEPS: usize = 300;
 /// equal radii stay equal. All conditions are linear in the unknowns while directions stay, so
 /// cyclic projection onto each of them (Kaczmarz 1937) ends at the nearest solution.
 pub(super) fn make_exact(supports: &mut [Support], contacts: &[[usize; 2]], tolerance: f64) {
-    let mut unknowns = Unknowns::new(supports);
-    let touching: Vec<[usize; 2]> = contacts
+    let ordered: Vec<[usize; 2]> = contacts
         .iter()
-        .map(|&[a, b]| match supports[a] {
-            Support::Plane { .. } => [a, b],
-            _ => [b, a],
+        .map(|&[a, b]| {
+            let rank = |s: usize| match supports[s] {
+                Support::Plane { .. } => 0,
+                Support::Cylinder { .. } => 1,
+                _ => 2,
+            };
+            if rank(a) < rank(b) { [a, b] } else { [b, a] }
         })
-        .filter(|&[a, b]| touch(&supports[a], &supports[b], tolerance).is_some())
+        .collect();
+    touch_round::line_up(supports, &ordered, tolerance);
+    let mut unknowns = Unknowns::new(supports);
+    let touching: Vec<[usize; 2]> = ordered
+        .into_iter()
+        .filter(|&[a, b]| {
+            touches(&supports[a], &supports[b], tolerance)
+                .next()
+                .is_some()
+        })
         .collect();
     for _ in 0..SWEEPS {
         let mut largest = 0f64;
         for &[a, b] in &touching {
             let (first, second) = (unknowns.at(supports, a), unknowns.at(supports, b));
-            if let Some(touch) = touch(&first, &second, f64::INFINITY) {
+            for touch in touches(&first, &second, f64::INFINITY) {
                 largest = largest.max(touch.gap.abs());
                 unknowns.correct([a, b], touch);
             }
@@ -56,8 +69,23 @@ struct Touch {
     gap: f64,
     /// Unit direction across both surfaces, at the first one's side.
     across: DVec3,
-    /// How the gap changes with the two radii.
-    slopes: [f64; 2],
+    /// How the gap changes with the two radii, and with that of the second one's spine.
+    slopes: [f64; 3],
+}
+
+/// How two surfaces miss touching each other, if by less than a tolerance: in one way, a pipe and its bend
+/// in two. A plane comes first, a torus last.
+fn touches(a: &Support, b: &Support, tolerance: f64) -> impl Iterator<Item = Touch> + use<> {
+    let bend = touch_round::bend(a, b, tolerance).map(|bend| {
+        bend.map(|(across, gap, spine)| Touch {
+            gap,
+            across,
+            slopes: [0.0, 0.0, spine],
+        })
+    });
+    touch(a, b, tolerance)
+        .into_iter()
+        .chain(bend.into_iter().flatten())
 }
 
 /// The touch of two surfaces that miss it by less than a tolerance; a plane comes first.
@@ -76,7 +104,7 @@ fn touch(a: &Support, b: &Support, tolerance: f64) -> Option<Touch> {
             Touch {
                 gap: height - side * radius,
                 across: normal,
-                slopes: [0.0, -side],
+                slopes: [0.0, -side, 0.0],
             }
         }
         (
@@ -100,14 +128,14 @@ fn touch(a: &Support, b: &Support, tolerance: f64) -> Option<Touch> {
                 Touch {
                     gap: outside,
                     across,
-                    slopes: [-1.0, -1.0],
+                    slopes: [-1.0, -1.0, 0.0],
                 }
             } else {
                 let sign = (r - s).signum();
                 Touch {
                     gap: inside,
                     across,
-                    slopes: [-sign, sign],
+                    slopes: [-sign, sign, 0.0],
                 }
             }
         }
@@ -121,9 +149,11 @@ struct Unknowns {
     /// Shift of every plane, or of every class of axes.
     shifts: Vec<DVec3>,
     radii: Vec<f64>,
+    /// Radii of the spines of tori.
+    spines: Vec<f64>,
     /// Class of the shift of every support.
     shift_of: Vec<usize>,
-    /// Class of the radius of every support; planes have one of their own.
+    /// Class of the radius of every support, that of the tube of a torus; planes have one of their own.
     radius_of: Vec<usize>,
 }
 
@@ -135,11 +165,17 @@ impl Unknowns {
         };
         let radius = |s: &Support| match s {
             Support::Cylinder { radius, .. } => Some(*radius),
+            Support::Torus { minor, .. } => Some(*minor),
             _ => None,
+        };
+        let spine = |s: &Support| match s {
+            Support::Torus { major, .. } => *major,
+            _ => 0.0,
         };
         Self {
             shifts: vec![DVec3::ZERO; supports.len()],
             radii: supports.iter().map(|s| radius(s).unwrap_or(0.0)).collect(),
+            spines: supports.iter().map(spine).collect(),
             // Cones and tori follow a cylinder that they share the axis with.
             shift_of: first(&|a, b| match (a.axis(), b.axis()) {
                 (Some((p, d)), Some((q, e))) => {
@@ -162,6 +198,12 @@ impl Unknowns {
                 axis,
                 radius: self.radii[self.radius_of[s]],
             },
+            Support::Torus { axis, .. } => Support::Torus {
+                center: origin,
+                axis,
+                major: self.spines[s],
+                minor: self.radii[self.radius_of[s]],
+            },
             other => other.with_origin(origin),
         }
     }
@@ -169,17 +211,19 @@ impl Unknowns {
     /// The least change that closes a gap.
     fn correct(&mut self, pair: [usize; 2], touch: Touch) {
         let [r, s] = pair.map(|i| self.radius_of[i]);
+        let [first, second, spine] = touch.slopes;
         let slopes = if r == s {
-            [touch.slopes[0] + touch.slopes[1], 0.0]
+            [first + second, 0.0, spine]
         } else {
             touch.slopes
         };
-        let norm = 2.0 + slopes[0] * slopes[0] + slopes[1] * slopes[1];
+        let norm = 2.0 + slopes.iter().map(|s| s * s).sum::<f64>();
         let step = touch.gap / norm;
         self.shifts[self.shift_of[pair[0]]] += touch.across * step;
         self.shifts[self.shift_of[pair[1]]] -= touch.across * step;
         self.radii[r] -= slopes[0] * step;
         self.radii[s] -= slopes[1] * step;
+        self.spines[pair[1]] -= spine * step;
     }
 }
 
@@ -261,6 +305,49 @@ mod tests {
         }
         assert_eq!(supports[4].origin(), supports[6].origin());
         assert!(supports[0].origin().distance(DVec3::X) < 5e-6);
+    }
+
+    #[test]
+    fn bends_of_a_pipe_are_made_to_touch_it() {
+        let along = [DVec3::X, DVec3::Y, DVec3::new(0.0, 0.6, 0.8)];
+        let pipe = |i: usize, off: DVec3, radius: f64| Support::Cylinder {
+            origin: [
+                DVec3::ZERO,
+                DVec3::new(2.0, 1.0, 0.0),
+                DVec3::new(2.0, 3.0, 0.0),
+            ][i] + off,
+            axis: along[i],
+            radius,
+        };
+        // Each in the plane of the two pipes, tangent to both.
+        let bend = |i: usize, off: DVec3, major: f64| {
+            let corner = [DVec3::new(2.0, 0.0, 0.0), DVec3::new(2.0, 3.0, 0.0)][i];
+            let (d, e) = (-along[i], along[i + 1]);
+            let half = (d.dot(e).acos() / 2.0).sin();
+            let axis = along[i].cross(along[i + 1]).normalize();
+            Support::Torus {
+                center: corner + (d + e).normalize() * (0.5 / half) + off,
+                axis: (axis + off).normalize(),
+                major,
+                minor: 0.1 + 1e-6,
+            }
+        };
+        let off = DVec3::new(1e-6, -2e-6, 1.5e-6);
+        let mut supports = [
+            pipe(0, off, 0.1),
+            pipe(1, -off, 0.1),
+            pipe(2, DVec3::ZERO, 0.1),
+            bend(0, off, 0.5 + 2e-6),
+            bend(1, -off, 0.5 - 1e-6),
+        ];
+        let contacts = [[0, 3], [3, 1], [1, 4], [2, 4]];
+        make_exact(&mut supports, &contacts, 1e-5);
+        for [a, b] in [[0, 3], [1, 3], [1, 4], [2, 4]] {
+            let gaps = touches(&supports[a], &supports[b], 1e-12);
+            assert_eq!(gaps.count(), 2, "{:?} {:?}", supports[a], supports[b]);
+            assert_eq!(supports[a].radius(), supports[b].radius());
+        }
+        assert!(supports[3].origin().distance(DVec3::new(1.5, 0.5, 0.0)) < 1e-5);
     }
 
     #[test]

@@ -21,13 +21,18 @@ enum Profile {
 /// A surface that crosses both of two touching surfaces where they touch: a vertex there is held on
 /// it. `None` if they do not touch within `tolerance`.
 pub(super) fn contact(a: &Support, b: &Support, tolerance: f64) -> Option<Support> {
-    bend(a, b, tolerance)
-        .or_else(|| bend(b, a, tolerance))
+    across(a, b, tolerance)
+        .or_else(|| across(b, a, tolerance))
         .or_else(|| coaxial(a, b, tolerance))
 }
 
-/// A pipe goes on straight after its bend: they touch in the circle across.
-fn bend(pipe: &Support, torus: &Support, tolerance: f64) -> Option<Support> {
+/// How far a pipe and its bend, a torus, miss touching each other, if by less than `tolerance`: two unit
+/// directions, how far the torus is off along each, and the slope of that with the radius of its spine.
+pub(super) fn bend(
+    pipe: &Support,
+    torus: &Support,
+    tolerance: f64,
+) -> Option<[(DVec3, f64, f64); 2]> {
     let (
         &Support::Cylinder {
             origin,
@@ -44,17 +49,77 @@ fn bend(pipe: &Support, torus: &Support, tolerance: f64) -> Option<Support> {
     else {
         return None;
     };
-    let aside = (origin - center).reject_from_normalized(axis);
-    let off = [
-        radius - minor,
-        aside.dot(around),
-        aside.reject_from_normalized(around).length() - major,
+    if axis.dot(around).abs() > ANGLE || (radius - minor).abs() > tolerance {
+        return None;
+    }
+    let aside = around.cross(axis).try_normalize()?;
+    let off = center - origin;
+    let side = aside.dot(off).signum();
+    let gaps = [
+        (around, around.dot(off), 0.0),
+        (aside, aside.dot(off) - side * major, -side),
     ];
-    let fits = axis.dot(around).abs() < ANGLE && off.iter().all(|d| d.abs() <= tolerance);
-    fits.then_some(Support::Plane {
-        origin: center,
-        normal: axis,
+    gaps.iter().all(|g| g.1.abs() <= tolerance).then_some(gaps)
+}
+
+/// The plane across where a pipe goes on straight after its bend: they touch in a circle.
+fn across(pipe: &Support, torus: &Support, tolerance: f64) -> Option<Support> {
+    bend(pipe, torus, tolerance).map(|_| Support::Plane {
+        origin: torus.origin(),
+        normal: pipe.direction(),
     })
+}
+
+/// Turns bends into the plane of the pipes beside them, and gives them the pipes' radius; `contacts` are
+/// pairs of supports, the torus last.
+pub(super) fn line_up(supports: &mut [Support], contacts: &[[usize; 2]], tolerance: f64) {
+    /// Sine of the angle that a bend may be turned by.
+    const TURN: f64 = 1e-4;
+    for t in 0..supports.len() {
+        let Support::Torus { axis, minor, .. } = supports[t] else {
+            continue;
+        };
+        let pipes = contacts
+            .iter()
+            .filter(|c| c[1] == t)
+            .map(|c| supports[c[0]]);
+        let pipes: Vec<(DVec3, f64)> = pipes
+            .filter_map(|pipe| match pipe {
+                Support::Cylinder {
+                    axis: along,
+                    radius,
+                    ..
+                } if along.dot(axis).abs() < TURN && (radius - minor).abs() <= tolerance => {
+                    Some((along, radius))
+                }
+                _ => None,
+            })
+            .collect();
+        let Some(&(first, radius)) = pipes.first() else {
+            continue;
+        };
+        let normals = pipes.iter().map(|(along, _)| first.cross(*along));
+        let longest = normals.max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
+        let normal = match longest {
+            Some(normal) if normal.length() > 0.1 => normal * normal.dot(axis).signum(),
+            _ => axis.reject_from_normalized(first),
+        };
+        if let Support::Torus { center, major, .. } = supports[t]
+            && let Some(axis) = normal.try_normalize()
+        {
+            let lined = Support::Torus {
+                center,
+                axis,
+                major,
+                minor: radius,
+            };
+            let touched = |c: &&[usize; 2]| c[1] == t;
+            let bends = |c: &[usize; 2]| bend(&supports[c[0]], &lined, tolerance).is_some();
+            if contacts.iter().filter(touched).any(bends) {
+                supports[t] = lined;
+            }
+        }
+    }
 }
 
 fn coaxial(a: &Support, b: &Support, tolerance: f64) -> Option<Support> {

@@ -4,6 +4,10 @@ use glam::{DVec2, DVec3};
 
 use crate::plan::conic::Conic;
 use crate::plan::support::Support;
+use crate::plan::touch_round::bend;
+
+/// A bend goes on as its pipe within this share of its radius.
+const BENT: f64 = 1e-6;
 
 /// Axes closer than this share of the surfaces' distance from each other are one.
 const SAME_AXIS: f64 = 1e-6;
@@ -19,6 +23,14 @@ pub(super) fn conic(a: &Support, b: &Support, ends: [DVec3; 2]) -> Option<Conic>
             center: origin + axis * height,
             ..conic
         });
+    }
+    // A pipe goes on as its bend from a circle across.
+    for (pipe, torus) in [(a, b), (b, a)] {
+        if let Some((origin, axis)) = pipe.axis()
+            && bend(pipe, torus, BENT * torus.radius()).is_some()
+        {
+            return Conic::around(origin, axis, ends[0]);
+        }
     }
     let (plane, other) = match (a, b) {
         (Support::Plane { .. }, other) => (a, other),
