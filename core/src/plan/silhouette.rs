@@ -19,7 +19,8 @@ const CURVED: f64 = 0.2;
 pub(super) fn is_outline(surface: &Support, edge: &Edge, ends: [DVec3; 2], view: &View) -> bool {
     let toward = view.toward(ends[0].midpoint(ends[1]));
     if edge.is_straight() {
-        let outwards = surface.gradient(ends[0]) + surface.gradient(ends[1]);
+        // Not at the ends: one may be the apex of a cone.
+        let outwards = surface.gradient(ends[0].midpoint(ends[1]));
         let (Some((_, axis)), Some(outwards), Some(along)) = (
             surface.axis(),
             outwards.try_normalize(),

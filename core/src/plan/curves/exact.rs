@@ -58,6 +58,31 @@ pub(super) fn conic(a: &Support, b: &Support, ends: [DVec3; 2]) -> Option<Conic>
     Conic::cut(plane.origin(), plane.direction(), other)
 }
 
+/// The circles that a round surface has through an edge's ends by itself: around its axis, and that of a
+/// torus around its tube.
+pub(super) fn natural(surface: &Support, ends: [DVec3; 2], near: f64) -> Vec<Conic> {
+    let Some((origin, axis)) = surface.axis() else {
+        return Vec::new();
+    };
+    let mut found = Vec::new();
+    let [p, q] = ends.map(|p| p - origin);
+    let across = [p, q].map(|p| p.reject_from_normalized(axis));
+    if (p - q).dot(axis).abs() <= near && (across[0].length() - across[1].length()).abs() <= near {
+        found.extend(Conic::around(origin, axis, ends[0]));
+    }
+    if let Support::Torus { major, minor, .. } = *surface
+        && let Some(out) = (across[0] + across[1]).try_normalize()
+        && across[0].reject_from_normalized(out).length() <= near
+    {
+        found.push(Conic {
+            center: origin + out * major,
+            major: out * minor,
+            minor: axis * minor,
+        });
+    }
+    found
+}
+
 /// The axis that two surfaces have in common: all their curves in common are circles around it.
 fn common_axis(a: &Support, b: &Support) -> Option<(DVec3, DVec3)> {
     let (one, other) = if a.axis().is_some() { (a, b) } else { (b, a) };

@@ -78,8 +78,8 @@ impl Place<'_> {
 ///
 /// A straight edge stays straight. A curved one is where its surfaces meet: a circle between
 /// surfaces around one axis, a circle or ellipse where a plane cuts a cylinder, cone or sphere;
-/// between two faces of one plane what is drawn, lifted onto it; else a curve through points, or a
-/// circle or ellipse if these lie on one. A silhouette is only where it is drawn.
+/// between two faces of one plane what is drawn, lifted onto it; beside a surface of no kind a circle that
+/// the other one has by itself; else a curve through points, or a circle or ellipse if these lie on one. A silhouette is only where it is drawn.
 ///
 /// # Errors
 /// [`PlanError::OffSurface`] or [`PlanError::Curve`] if the surfaces do not meet where it is drawn.
@@ -122,6 +122,9 @@ pub(super) fn curve(place: &Place<'_>, view: &View, lengths: Lengths) -> Result<
                 // A plane along the axis meets the cylinder in straight lines only.
                 return straight(place, lengths);
             }
+            if let Some(curve) = own_circle(place, &drawn, lengths) {
+                return Ok(curve);
+            }
             let mut surfaces: Vec<Lain> = (0..2).map(|i| place.lain(i, place.sides[i])).collect();
             surfaces.retain(|s| s.support != Support::Unknown);
             if place.same {
@@ -131,6 +134,22 @@ pub(super) fn curve(place: &Place<'_>, view: &View, lengths: Lengths) -> Result<
             through(place, &drawn, points, lengths)
         }
     }
+}
+
+/// Between a round surface and one that says nothing: a circle of the round one, if that is what is drawn.
+/// Points on it that are nearly seen edge-on tell little.
+fn own_circle(place: &Place<'_>, drawn: &Drawn<'_>, lengths: Lengths) -> Option<Curve3> {
+    let ([surface, Support::Unknown] | [Support::Unknown, surface]) = place.supports else {
+        return None;
+    };
+    let [start, end] = place.ends;
+    let whole = place.drawn.v[0] == place.drawn.v[1];
+    let circles = exact::natural(&surface, place.ends, lengths.limit).into_iter();
+    circles
+        .map(|circle| drawn.sense(circle, start, end, whole))
+        .filter(|(_, gap)| *gap <= lengths.limit)
+        .min_by(|a, b| a.1.total_cmp(&b.1))
+        .map(|(circle, _)| circle.curve())
 }
 
 /// A segment, if it lies on both surfaces.

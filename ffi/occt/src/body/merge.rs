@@ -3,16 +3,40 @@
 use std::collections::BTreeMap;
 
 use faceformer::drawing::CoEdge;
-use faceformer::plan::Plan;
+use faceformer::plan::{Plan, Surface3};
 use glam::DVec3;
 
 use super::curve::joined;
 use super::{Body, BodyEdge, BodyFace};
 use crate::groups::Groups;
 
-/// The plan without silhouettes.
+/// The plan without silhouettes, but for those that keep a filled face from being a ring: no surface of
+/// one piece can be laid through two loops.
 pub(super) fn merged(plan: &Plan) -> Body {
-    let silhouette = |e: usize| plan.edges[e].silhouette;
+    let all: Vec<bool> = plan.edges.iter().map(|e| e.silhouette).collect();
+    let (body, groups) = without(plan, &all);
+    let rings: Vec<bool> = body.faces.iter().map(is_filled_ring).collect();
+    if !rings.contains(&true) {
+        return body;
+    }
+    let mut some = all;
+    for (face, &group) in plan.faces.iter().zip(&groups) {
+        if rings[group as usize] {
+            for coedge in face.loops.iter().flatten() {
+                some[coedge.edge()] = false;
+            }
+        }
+    }
+    without(plan, &some).0
+}
+
+fn is_filled_ring(face: &BodyFace) -> bool {
+    matches!(face.surface, Surface3::Filled) && face.loops.len() > 1
+}
+
+/// The plan without some silhouettes, and the face of the result that each of its faces is part of.
+fn without(plan: &Plan, silhouettes: &[bool]) -> (Body, Vec<u32>) {
+    let silhouette = |e: usize| silhouettes[e];
     let loops = plan.faces.iter().map(|f| &f.loops);
     let groups = Groups::new(loops, plan.edges.len(), silhouette).labels();
     let next = successors(plan);
@@ -67,9 +91,9 @@ pub(super) fn merged(plan: &Plan) -> Body {
             .collect(),
         faces: faces.into_iter().flatten().collect(),
     };
-    dissolve(plan, &mut body);
+    dissolve(plan, silhouettes, &mut body);
     compact(&mut body);
-    body
+    (body, groups)
 }
 
 /// The co-edge after each in its loop, by signed number.
@@ -84,13 +108,14 @@ fn successors(plan: &Plan) -> BTreeMap<i64, CoEdge> {
 }
 
 /// Joins two edges of one curve where only a silhouette ended.
-fn dissolve(plan: &Plan, body: &mut Body) {
+fn dissolve(plan: &Plan, silhouettes: &[bool], body: &mut Body) {
     let size = plan
         .vertices
         .iter()
         .fold(0.0f64, |m, p| m.max(p.distance(plan.vertices[0])));
     for v in 0..plan.vertices.len() {
-        let cut = plan.edges.iter().any(|e| e.silhouette && e.v.contains(&v));
+        let mut edges = plan.edges.iter().zip(silhouettes);
+        let cut = edges.any(|(e, silhouette)| *silhouette && e.v.contains(&v));
         if !cut {
             continue;
         }
@@ -102,7 +127,7 @@ fn dissolve(plan: &Plan, body: &mut Body) {
                 .any(|c| c.edge() == *e)
         };
         let at: Vec<usize> = (0..body.edges.len())
-            .filter(|&e| !plan.edges[e].silhouette && body.edges[e].v.contains(&v))
+            .filter(|&e| !silhouettes[e] && body.edges[e].v.contains(&v))
             .filter(used)
             .collect();
         let [first, second] = at[..] else {
