@@ -7,9 +7,9 @@ use faceformer::Progress;
 use faceformer::drawing::Drawing;
 use faceformer::identify::{Face, Identification};
 use faceformer::lift::{Lift, LiftOptions, lift};
-use faceformer::plan::{Orientation, Plan, PlanOptions, plan};
+use faceformer::plan::{Orientation, Plan, PlanOptions};
 use faceformer::readings::{self, Taken};
-use faceformer_occt::{Format, Solid, SolidReport, build};
+use faceformer_occt::{Format, Solid, SolidReport, make as make_solid};
 use serde::Serialize;
 
 use crate::args::{OrientationArg, SolidArgs};
@@ -127,6 +127,8 @@ pub(crate) struct Made {
     pub(crate) lift_time: Duration,
     /// The solid with its plan, or the failure of the stage at fault.
     pub(crate) built: Result<(Plan, Solid), Failure>,
+    /// Faces whose surfaces were given up for it.
+    freed: Vec<usize>,
     /// Time that plan and solid took.
     pub(crate) build_time: Duration,
 }
@@ -138,17 +140,23 @@ impl Made {
         let lifted = lift(drawing, faces, &LiftOptions { flip }, Progress::none());
         let lift_time = start.elapsed();
         let start = Instant::now();
-        let (lift, built) = match lifted {
-            Ok(lift) => {
-                let built = solid(drawing, faces, &lift, options);
-                (Some(lift), built)
+        let (lift, made) = match lifted {
+            Ok(mut lift) => {
+                let made = make_solid(drawing, faces, &mut lift, options, Progress::none());
+                (Some(lift), made)
             }
-            Err(error) => (None, Err(error.into())),
+            Err(error) => (None, Err(error)),
+        };
+        let freed = made.as_ref().map_or(Vec::new(), |m| m.freed.clone());
+        let built = match made {
+            Ok(made) => made.solid.map(|s| (made.plan, s)).map_err(Into::into),
+            Err(error) => Err(error.into()),
         };
         Self {
             lift,
             lift_time,
             built,
+            freed,
             build_time: start.elapsed(),
         }
     }
@@ -157,7 +165,10 @@ impl Made {
     fn fault(&self) -> Option<String> {
         match &self.built {
             Err(failure) => Some(readings::failure(failure)),
-            Ok(_) => self.lift.as_ref().and_then(readings::conflict),
+            Ok(_) => {
+                let conflict = self.lift.as_ref().and_then(readings::conflict);
+                conflict.or_else(|| readings::freed(&self.freed))
+            }
         }
     }
 }
@@ -175,17 +186,6 @@ pub(crate) fn make(
         |faces| Made::of(drawing, faces, flip, options),
         Made::fault,
     )
-}
-
-fn solid(
-    drawing: &Drawing,
-    faces: &[Face],
-    lift: &Lift,
-    options: &PlanOptions,
-) -> Result<(Plan, Solid), Failure> {
-    let plan = plan(drawing, faces, lift, options)?;
-    let solid = build(&plan, Progress::none())?;
-    Ok((plan, solid))
 }
 
 fn summary(path: &Path, report: &SolidReport) -> String {

@@ -77,6 +77,15 @@ pub fn conflict(lift: &Lift) -> Option<String> {
     Some(format!("does not lift without conflict: {first}"))
 }
 
+/// What is wrong with a reading of which some faces' surfaces, from 0, had to be given up.
+pub fn freed(faces: &[usize]) -> Option<String> {
+    let first = faces.first()?;
+    Some(format!(
+        "has no surface that fits the edges of face {}",
+        first + 1
+    ))
+}
+
 /// What is wrong with a reading that gives no solid.
 pub fn failure(error: &impl Display) -> String {
     format!("gives no solid: {error}")

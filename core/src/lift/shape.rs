@@ -27,7 +27,7 @@ impl Surface {
     }
 
     /// The kind of surface, if it is known.
-    pub(crate) fn kind(&self) -> Option<SurfaceKind> {
+    pub fn kind(&self) -> Option<SurfaceKind> {
         match self {
             Self::Unknown => None,
             Self::Plane { .. } => Some(SurfaceKind::Plane),

@@ -6,7 +6,7 @@ use std::path::Path;
 use faceformer::drawing::Drawing;
 use faceformer::identify::Face;
 use faceformer::lift::{self, Lift, LiftOptions};
-use faceformer::plan::{self, Orientation, Plan, PlanOptions};
+use faceformer::plan::{Orientation, Plan, PlanOptions};
 use faceformer::readings::{self, Taken};
 use faceformer::{Progress, Stage};
 use faceformer_occt::{Format, OcctError, Solid, SolidReport};
@@ -122,7 +122,9 @@ pub unsafe extern "C" fn faceformer_solid(
         let watcher = unsafe { Watcher::new(callback, user) };
         let report = |stage, share| watcher.report(stage, share);
         let taken = make(drawing, faces, &options, Progress::new(&report))?;
-        let Made { lift, plan, shape } = taken.result?;
+        let Made {
+            lift, plan, shape, ..
+        } = taken.result?;
         let outcome = match &shape {
             Shape::Whole(_) => Ok(()),
             Shape::Partial(error) => Err(error.clone().into()),
@@ -143,6 +145,7 @@ struct Made {
     lift: Lift,
     plan: Plan,
     shape: Shape,
+    freed: Vec<usize>,
 }
 
 /// Makes the solid of the first reading without fault.
@@ -172,7 +175,7 @@ fn attempt(
     options: &SolidOptions,
     progress: Progress<'_>,
 ) -> Result<Made, CallError> {
-    let lift = lift::lift(
+    let mut lift = lift::lift(
         drawing,
         faces,
         &LiftOptions { flip: options.flip },
@@ -183,13 +186,18 @@ fn attempt(
         scale: options.scale,
         orientation: options.orientation,
     };
-    let plan = plan::plan(drawing, faces, &lift, &plan_options)?;
-    let shape = match faceformer_occt::build(&plan, progress) {
+    let made = faceformer_occt::make(drawing, faces, &mut lift, &plan_options, progress)?;
+    let shape = match made.solid {
         Ok(solid) => Shape::Whole(solid),
         Err(error) if error.partial().is_some() => Shape::Partial(error),
         Err(error) => return Err(error.into()),
     };
-    Ok(Made { lift, plan, shape })
+    Ok(Made {
+        lift,
+        plan: made.plan,
+        shape,
+        freed: made.freed,
+    })
 }
 
 /// What is wrong with an attempt; nothing is if the caller stopped it.
@@ -199,7 +207,7 @@ fn fault(made: &Result<Made, CallError>) -> Option<String> {
             shape: Shape::Partial(error),
             ..
         }) => Some(readings::failure(error)),
-        Ok(made) => readings::conflict(&made.lift),
+        Ok(made) => readings::conflict(&made.lift).or_else(|| readings::freed(&made.freed)),
         Err(error) if error.status() == FaceformerStatus::Cancelled => None,
         Err(error) => Some(readings::failure(error)),
     }

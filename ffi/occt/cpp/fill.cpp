@@ -4,9 +4,11 @@
 #include <functional>
 #include <vector>
 
+#include <GCPnts_AbscissaPoint.hxx>
 #include <GeomAdaptor_Curve.hxx>
 #include <GeomConvert.hxx>
 #include <GeomConvert_ApproxCurve.hxx>
+#include <GeomConvert_CompCurveToBSplineCurve.hxx>
 #include <GeomFill_BSplineCurves.hxx>
 #include <GeomPlate_BuildPlateSurface.hxx>
 #include <GeomPlate_CurveConstraint.hxx>
@@ -35,6 +37,11 @@ constexpr int kWeightlessPieces = 64;
 constexpr int kWeightlessDegree = 8;
 
 constexpr int kCoonsDegree = 3;
+
+// Edges that meet within this, in inner units, make one side; a face of more edges than these has too
+// winding a boundary to be seen as four sides.
+constexpr double kJoint = 1e-2;
+constexpr std::size_t kMostSides = 8;
 
 // A plate passes its edges at so many points of all together, at least and at most so many of
 // each; its approximation by so many pieces stays within these inner units of it.
@@ -108,20 +115,79 @@ void blend(const Handle(Geom_BSplineSurface) & surface) {
   }
 }
 
-// The sides' own curves are rational where they are circles, and weights spoil the sum of Coons:
-// it then bulges between its sides, and misses them if opposite ones have other weights.
-Handle(Geom_BSplineSurface) coons(const Loop &loop, const Topology &topology) {
-  Handle(Geom_BSplineCurve) sides[4];
-  for (int i = 0; i < 4; ++i) {
-    const Handle(Geom_TrimmedCurve) side = trimmed(loop.coedges[i], topology);
-    sides[i] = GeomConvert::CurveToBSplineCurve(side);
-    if (sides[i]->IsRational()) {
-      const GeomConvert_ApproxCurve approximation(sides[i], kWeightless, GeomAbs_C1,
-                                                  kWeightlessPieces, kWeightlessDegree);
-      if (approximation.HasResult()) {
-        sides[i] = approximation.Curve();
+using Side = Handle(Geom_BSplineCurve);
+
+// The edges' own curves are rational where they are circles, and weights spoil the sum of Coons: it then
+// bulges between its sides, and misses them if opposite ones have other weights.
+Side weightless(std::int32_t coedge, const Topology &topology) {
+  const Side side = GeomConvert::CurveToBSplineCurve(trimmed(coedge, topology));
+  if (!side->IsRational()) {
+    return side;
+  }
+  const GeomConvert_ApproxCurve approximation(side, kWeightless, GeomAbs_C1, kWeightlessPieces,
+                                              kWeightlessDegree);
+  return approximation.HasResult() ? approximation.Curve() : side;
+}
+
+double length(const Side &side) {
+  return GCPnts_AbscissaPoint::Length(GeomAdaptor_Curve(side));
+}
+
+// The cosine of the angle by which a curve turns into the next one.
+double smoothness(const Side &first, const Side &second) {
+  gp_Pnt point;
+  gp_Vec in;
+  gp_Vec out;
+  first->D1(first->LastParameter(), point, in);
+  second->D1(second->FirstParameter(), point, out);
+  const double lengths = in.Magnitude() * out.Magnitude();
+  return lengths > 0.0 ? in.Dot(out) / lengths : -1.0;
+}
+
+// Four sides made of any number of edges: the smoothest corners go, or the longest sides are halved.
+std::vector<Side> four_sides(const Loop &loop, const Topology &topology) {
+  std::vector<Side> sides;
+  for (const std::int32_t coedge : loop.coedges) {
+    sides.push_back(weightless(coedge, topology));
+  }
+  while (sides.size() < 4) {
+    const auto longest =
+        std::max_element(sides.begin(), sides.end(),
+                         [](const Side &a, const Side &b) { return length(a) < length(b); });
+    const double middle = ((*longest)->FirstParameter() + (*longest)->LastParameter()) / 2.0;
+    const Side second = Handle(Geom_BSplineCurve)::DownCast((*longest)->Copy());
+    second->Segment(middle, second->LastParameter());
+    (*longest)->Segment((*longest)->FirstParameter(), middle);
+    sides.insert(longest + 1, second);
+  }
+  while (sides.size() > 4) {
+    std::size_t best = 0;
+    double most = -2.0;
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+      const double smooth = smoothness(sides[i], sides[(i + 1) % sides.size()]);
+      if (smooth > most) {
+        most = smooth;
+        best = i;
       }
     }
+    // The seam of the list is no corner that may go.
+    if (best + 1 == sides.size()) {
+      std::rotate(sides.begin(), sides.begin() + 1, sides.end());
+      --best;
+    }
+    GeomConvert_CompCurveToBSplineCurve joined(sides[best]);
+    if (!joined.Add(sides[best + 1], kJoint, Standard_True)) {
+      throw std::domain_error("its edges do not meet");
+    }
+    sides[best] = joined.BSplineCurve();
+    sides.erase(sides.begin() + static_cast<std::ptrdiff_t>(best) + 1);
+  }
+  return sides;
+}
+
+Handle(Geom_BSplineSurface) coons(const Loop &loop, const Topology &topology) {
+  std::vector<Side> sides = four_sides(loop, topology);
+  for (std::size_t i = 0; i < 4; ++i) {
     // Sides meet in a tolerance, and the sum of Coons wants them to meet exactly.
     if (i > 0) {
       sides[i]->SetPole(1, sides[i - 1]->EndPoint());
@@ -192,12 +258,17 @@ double deviation(const Face &face, const Topology &topology,
 Handle(Geom_BSplineSurface) fill(const Face &face, const Topology &topology) {
   using Attempt = std::function<Handle(Geom_BSplineSurface)()>;
   std::vector<Attempt> attempts;
-  if (face.loops.size() == 1 && face.loops.front().coedges.size() == 4) {
-    const Loop &loop = face.loops.front();
-    attempts.emplace_back([&] { return coons(loop, topology); });
+  const Loop &loop = face.loops.front();
+  const std::size_t sides = face.loops.size() == 1 ? loop.coedges.size() : 0;
+  const Attempt by_sides = [&] { return coons(loop, topology); };
+  if (sides == 4) {
+    attempts.push_back(by_sides);
   }
   attempts.emplace_back([&] { return plate(face, topology, kCoarse); });
   attempts.emplace_back([&] { return plate(face, topology, kFine); });
+  if (sides > 1 && sides <= kMostSides && sides != 4) {
+    attempts.push_back(by_sides);
+  }
   Handle(Geom_BSplineSurface) best;
   double least = 0.0;
   for (const Attempt &attempt : attempts) {

@@ -1,6 +1,7 @@
 //! Builds a [`Plan`](faceformer::plan::Plan) as an OpenCASCADE solid.
 //!
-//! One coarse call, [`build`], builds, checks and writes a whole solid. Vertices and edges are
+//! One coarse call, [`build`], builds and checks a whole solid; [`make`] plans it first, and gives up the
+//! surfaces that none can be built with. Vertices and edges are
 //! shared between faces from the start; loose faces are never sewn. Planes, cylinders, cones,
 //! spheres and tori, lines, circles and ellipses stay what they are; silhouettes are taken out
 //! first, so that a hole is one cylinder face with a seam. A face on a surface of no known kind is
@@ -25,9 +26,11 @@ mod bridge;
 mod encode;
 mod error;
 mod groups;
+mod made;
 mod report;
 mod solid;
 
 pub use error::OcctError;
+pub use made::{Made, make};
 pub use report::{FaceCounts, FilledFace, SolidReport};
 pub use solid::{Format, Solid, build, occt_version};
