@@ -16,7 +16,7 @@ mod error;
 pub mod identify;
 pub mod lift;
 pub mod plan;
-mod polygon;
+pub mod polygon;
 mod progress;
 pub mod readings;
 mod scatter;

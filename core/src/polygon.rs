@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 /// Area, positive if the polygon runs counter-clockwise.
-pub(crate) fn signed_area(polygon: &[DVec2]) -> f64 {
+pub fn signed_area(polygon: &[DVec2]) -> f64 {
     let n = polygon.len();
     (0..n)
         .map(|i| polygon[i].perp_dot(polygon[(i + 1) % n]))
@@ -12,7 +12,7 @@ pub(crate) fn signed_area(polygon: &[DVec2]) -> f64 {
 }
 
 /// Whether a point is inside, by the even-odd rule.
-pub(crate) fn contains(polygon: &[DVec2], p: DVec2) -> bool {
+pub fn contains(polygon: &[DVec2], p: DVec2) -> bool {
     let mut inside = false;
     let n = polygon.len();
     for i in 0..n {

@@ -67,8 +67,8 @@ fn pencils(sheet: &Sheet<'_>, _: &Unknowns, system: &mut System<Tag>) {
     slanted(sheet, false, system);
 }
 
-/// The wall of a slot: a planar face whose one axis it shares with a floor that is normal to a second
-/// one stands upright on the floor.
+/// The wall of a slot: a planar face stands upright on a floor, which is normal to an axis, where the edge
+/// between them is straight.
 fn square(sheet: &Sheet<'_>, unknowns: &Unknowns, system: &mut System<Tag>) {
     let count = sheet.directions.axes.len();
     // Normals of planar faces that circles or two axes tell.
@@ -84,23 +84,35 @@ fn square(sheet: &Sheet<'_>, unknowns: &Unknowns, system: &mut System<Tag>) {
         if level(face).is_some() {
             continue;
         }
-        for &edge in sheet.edges_of(face) {
-            let Some(along) = sheet.edge_axis[edge] else {
-                continue;
+        let upright = |edge: usize| {
+            let floor = sheet.neighbours(edge).iter().find(|f| **f != face)?;
+            let up = level(*floor).filter(|_| sheet.is_planar(*floor))?;
+            let along = match sheet.edge_axis[edge] {
+                Some(k) if k == up => return None,
+                Some(k) => sheet.axis(k),
+                None => on_level(sheet, edge, sheet.axis(up)),
             };
-            let floor = sheet.neighbours(edge).iter().find(|f| **f != face);
-            let up = floor
-                .filter(|f| sheet.is_planar(**f))
-                .and_then(|f| level(*f));
-            let third = (0..count).find(|&k| k != along && Some(k) != up);
-            if let (Some(up), Some(k)) = (up, third)
-                && up != along
-            {
-                normal_to(sheet, face, p, sheet.axis(k), Tag::Prism { face }, system);
-                break;
-            }
+            sheet.axis(up).cross(along).try_normalize()
+        };
+        let edges = sheet.edges_of(face).iter().copied();
+        let mut straight: Vec<usize> = edges.filter(|&e| sheet.is_straight(e)).collect();
+        // What follows an axis is surest.
+        straight.sort_by_key(|&e| sheet.edge_axis[e].is_none());
+        if let Some(normal) = straight.into_iter().find_map(upright) {
+            normal_to(sheet, face, p, normal, Tag::Prism { face }, system);
         }
     }
+}
+
+/// The way of a straight edge in a plane of that normal, of any length.
+fn on_level(sheet: &Sheet<'_>, edge: usize, normal: DVec3) -> DVec3 {
+    let camera = sheet.camera();
+    let [a, b] = sheet.drawing.edges[edge]
+        .v
+        .map(|v| sheet.drawing.vertices[v]);
+    let (from, ray) = camera.ray(a);
+    let start = from + ray;
+    camera.on_plane(b, normal, start) - start
 }
 
 fn slanted(sheet: &Sheet<'_>, usual: bool, system: &mut System<Tag>) {

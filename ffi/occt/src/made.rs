@@ -138,22 +138,33 @@ impl Place {
 }
 
 /// The face whose surface is given up next: one near the place that is there for another kind, else a
-/// curved one at the place; of several the one with fewest edges.
+/// curved one at the place, else one that meets the edge at fault in a vertex; of several the one with
+/// fewest edges.
 fn suspect(drawing: &Drawing, faces: &[Face], lift: &Lift, at: &Place) -> Option<usize> {
     let coedges = |f: usize| faces[f].loops.iter().flatten();
-    let curved = |f: &usize| {
-        let surface = &lift.surfaces[*f];
-        !matches!(surface, Surface::Plane { .. } | Surface::Unknown)
-    };
-    let stands_in = |f: &usize| lift.surfaces[*f].kind() != Some(faces[*f].kind);
-    let there =
-        |f: &usize| at.faces.contains(f) || coedges(*f).any(|c| at.edges.contains(&c.edge()));
     let ends = |f: usize| coedges(f).flat_map(|c| drawing.edges[c.edge()].v);
-    let vertices: Vec<usize> = (0..faces.len()).filter(there).flat_map(ends).collect();
+    let curved: Vec<usize> = (0..faces.len())
+        .filter(|&f| {
+            let surface = &lift.surfaces[f];
+            !matches!(surface, Surface::Plane { .. } | Surface::Unknown)
+        })
+        .collect();
+    let fewest = |wanted: &dyn Fn(usize) -> bool| {
+        let all = curved.iter().copied().filter(|&f| wanted(f));
+        all.min_by_key(|&f| coedges(f).count())
+    };
+    let stands_in = |f: usize| lift.surfaces[f].kind() != Some(faces[f].kind);
+    let there =
+        |f: usize| at.faces.contains(&f) || coedges(f).any(|c| at.edges.contains(&c.edge()));
+    let beside: Vec<usize> = (0..faces.len())
+        .filter(|&f| there(f))
+        .flat_map(ends)
+        .collect();
     let anywhere = at.edges.is_empty() && at.faces.is_empty();
-    let near = |f: &usize| anywhere || ends(*f).any(|v| vertices.contains(&v));
-    let fewest = |all: Vec<usize>| all.into_iter().min_by_key(|&f| coedges(f).count());
-    let all = || (0..faces.len()).filter(curved);
-    fewest(all().filter(stands_in).filter(near).collect())
-        .or_else(|| fewest(all().filter(there).collect()))
+    let near = |f: usize| anywhere || ends(f).any(|v| beside.contains(&v));
+    let edges = at.edges.iter().filter_map(|&e| drawing.edges.get(e));
+    let tips: Vec<usize> = edges.flat_map(|e| e.v).collect();
+    fewest(&|f| stands_in(f) && near(f))
+        .or_else(|| fewest(&there))
+        .or_else(|| fewest(&|f| ends(f).any(|v| tips.contains(&v))))
 }

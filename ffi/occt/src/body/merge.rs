@@ -4,18 +4,23 @@ use std::collections::BTreeMap;
 
 use faceformer::drawing::CoEdge;
 use faceformer::plan::{Plan, Surface3};
-use glam::DVec3;
+use faceformer::polygon::contains;
+use glam::{DVec2, DVec3};
 
 use super::curve::joined;
 use super::{Body, BodyEdge, BodyFace};
 use crate::groups::Groups;
 
-/// The plan without silhouettes, but for those that keep a filled face from being a ring: no surface of
-/// one piece can be laid through two loops.
+/// Steps along an edge of a filled face.
+const STEPS: usize = 16;
+
+/// The plan without silhouettes, but for those that keep a filled face from running around like a pipe:
+/// no surface of one piece can be laid through its ends.
 pub(super) fn merged(plan: &Plan) -> Body {
     let all: Vec<bool> = plan.edges.iter().map(|e| e.silhouette).collect();
     let (body, groups) = without(plan, &all);
-    let rings: Vec<bool> = body.faces.iter().map(is_filled_ring).collect();
+    let faces = body.faces.iter();
+    let rings: Vec<bool> = faces.map(|face| is_filled_ring(&body, face)).collect();
     if !rings.contains(&true) {
         return body;
     }
@@ -30,8 +35,38 @@ pub(super) fn merged(plan: &Plan) -> Body {
     without(plan, &some).0
 }
 
-fn is_filled_ring(face: &BodyFace) -> bool {
-    matches!(face.surface, Surface3::Filled) && face.loops.len() > 1
+/// Whether a filled face runs around like a pipe: some of its loops is not within the largest, seen
+/// along that one's normal.
+fn is_filled_ring(body: &Body, face: &BodyFace) -> bool {
+    if !matches!(face.surface, Surface3::Filled) || face.loops.len() < 2 {
+        return false;
+    }
+    let line = |walk: &Vec<CoEdge>| -> Vec<DVec3> {
+        let points = |c: &CoEdge| body.points(*c, STEPS).into_iter().skip(1);
+        walk.iter().flat_map(points).collect()
+    };
+    let lines: Vec<Vec<DVec3>> = face.loops.iter().map(line).collect();
+    let area = |line: &[DVec3]| -> DVec3 {
+        let next = line.iter().cycle().skip(1);
+        let sides = line
+            .iter()
+            .zip(next)
+            .map(|(p, q)| (*p - line[0]).cross(*q - line[0]));
+        sides.sum()
+    };
+    let areas: Vec<DVec3> = lines.iter().map(|l| area(l)).collect();
+    let size = |i: &usize| areas[*i].length();
+    let outer = (0..lines.len()).max_by(|a, b| size(a).total_cmp(&size(b)));
+    let Some((outer, normal)) = outer.and_then(|o| Some((o, areas[o].try_normalize()?))) else {
+        return false;
+    };
+    let (u, v) = normal.any_orthonormal_pair();
+    let flat = |p: &DVec3| DVec2::new(p.dot(u), p.dot(v));
+    let bounds: Vec<DVec2> = lines[outer].iter().map(flat).collect();
+    let others = (0..lines.len()).filter(|&i| i != outer);
+    others
+        .flat_map(|i| &lines[i])
+        .any(|p| !contains(&bounds, flat(p)))
 }
 
 /// The plan without some silhouettes, and the face of the result that each of its faces is part of.
