@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::drawing::CoEdge;
+use crate::sets::Sets;
 
 use super::PlanError;
 use super::chart::{Sight, sides, volume};
@@ -27,15 +28,40 @@ pub(super) struct Oriented {
     pub(super) reversed: bool,
 }
 
-/// A face while it is worked on.
+/// A face while it is worked on; its loops are in the order that they are given in.
 struct Draft {
-    /// Outer first.
-    loops: Vec<Vec<CoEdge>>,
-    /// For each of the face's loops as given: whether it was turned around.
+    outer: usize,
+    /// Whether each loop was turned around, so that the face is on the left against the gradient.
     turned: Vec<bool>,
-    volume: f64,
+    /// How sure that is: the areas that loops enclose in the drawing, of the squares of their lengths.
+    sure: Vec<f64>,
+    /// What each loop, as it is given, adds to the volume.
+    volumes: Vec<f64>,
     low: DVec3,
     high: DVec3,
+}
+
+impl Draft {
+    fn volume(&self) -> f64 {
+        let shares = self.volumes.iter().zip(&self.turned);
+        shares
+            .map(|(v, turned)| if *turned { -v } else { *v })
+            .sum()
+    }
+
+    /// The loops, outer first, each turned around or not.
+    fn oriented(&self, loops: &[Vec<CoEdge>], reversed: bool) -> Vec<Vec<CoEdge>> {
+        let mut order: Vec<usize> = (0..loops.len()).collect();
+        order.sort_by_key(|&i| i != self.outer);
+        let walk = |i: usize| {
+            if self.turned[i] != reversed {
+                loops[i].iter().rev().map(|c| c.mate()).collect()
+            } else {
+                loops[i].clone()
+            }
+        };
+        order.into_iter().map(walk).collect()
+    }
 }
 
 /// Orients the loops of all faces.
@@ -56,11 +82,12 @@ pub(super) fn orient(
     silhouette: impl Fn(usize) -> bool,
     points: impl Fn(CoEdge, usize) -> Vec<DVec3>,
 ) -> Result<Vec<Oriented>, PlanError> {
-    let drafts: Vec<Draft> = loops
+    let mut drafts: Vec<Draft> = loops
         .iter()
         .zip(supports)
         .map(|(loops, support)| draft(loops, support, view, &silhouette, &points))
         .collect();
+    settle(&mut drafts, uses);
     let shells = propagate(&drafts, uses)?;
     let mut flips: Vec<bool> = vec![false; drafts.len()];
     let volumes: Vec<f64> = shells.iter().map(|s| shell_volume(s, &drafts)).collect();
@@ -72,16 +99,10 @@ pub(super) fn orient(
             flips[face] = flip != turn;
         }
     }
-    let turn = |walk: Vec<CoEdge>| walk.iter().rev().map(|c| c.mate()).collect();
-    Ok(drafts
-        .into_iter()
-        .zip(flips)
-        .map(|(draft, reversed)| Oriented {
-            loops: if reversed {
-                draft.loops.into_iter().map(turn).collect()
-            } else {
-                draft.loops
-            },
+    let turned = drafts.iter().zip(loops).zip(flips);
+    Ok(turned
+        .map(|((draft, loops), reversed)| Oriented {
+            loops: draft.oriented(loops, reversed),
             reversed,
         })
         .collect())
@@ -131,25 +152,70 @@ fn draft(
         toward: view.toward(middle),
         front,
     };
-    let share = |i: usize| {
-        let volume = volume(support, &polylines[i], sight);
-        if turned[i] { -volume } else { volume }
+    let sure = |i: usize| {
+        let drawn = |p: DVec3| view.project(p);
+        let length = sides(&polylines[i]).map(|(p, q)| drawn(p).distance(drawn(q)));
+        areas[i].abs() / length.sum::<f64>().powi(2)
     };
-    let mut order: Vec<usize> = (0..loops.len()).collect();
-    order.sort_by_key(|&i| i != outer);
-    let walk = |i: usize| -> Vec<CoEdge> {
-        if turned[i] {
-            loops[i].iter().rev().map(|c| c.mate()).collect()
-        } else {
-            loops[i].clone()
-        }
-    };
+    let each = || 0..loops.len();
     Draft {
-        loops: order.iter().map(|&i| walk(i)).collect(),
-        volume: (0..loops.len()).map(share).sum(),
+        outer,
+        sure: each().map(sure).collect(),
+        volumes: each()
+            .map(|i| volume(support, &polylines[i], sight))
+            .collect(),
         turned,
         low: all().fold(DVec3::INFINITY, |m, p| m.min(*p)),
         high: all().fold(DVec3::NEG_INFINITY, |m, p| m.max(*p)),
+    }
+}
+
+/// Turns loops around of which the drawing tells the way round least, where neighbours would disagree
+/// otherwise: an outline with cusps crosses what it bounds.
+fn settle(drafts: &mut [Draft], uses: &[[Use; 2]]) {
+    let mut first = vec![0];
+    for draft in &*drafts {
+        first.push(first[first.len() - 1] + draft.turned.len());
+    }
+    let count = first[drafts.len()];
+    // Each loop as it is given and turned around; what goes together is in one set.
+    let mut ways = Sets::new(2 * count);
+    let tie = |ways: &mut Sets, a: usize, b: usize, differ: bool| -> bool {
+        let other = |x: usize| (x + count) % (2 * count);
+        if ways.find(a) == ways.find(if differ { b } else { other(b) }) {
+            return false;
+        }
+        let b = if differ { other(b) } else { b };
+        ways.join(a, b);
+        ways.join(other(a), other(b));
+        true
+    };
+    for [a, b] in uses {
+        // Two loops walk their edge in opposite directions.
+        let same = a.reversed == b.reversed;
+        if !tie(
+            &mut ways,
+            first[a.face] + a.walk,
+            first[b.face] + b.walk,
+            same,
+        ) {
+            return;
+        }
+    }
+    let mut loops: Vec<(f64, usize, usize, usize)> = Vec::new();
+    for (f, draft) in drafts.iter().enumerate() {
+        let surest = (0..draft.sure.len()).max_by(|&a, &b| draft.sure[a].total_cmp(&draft.sure[b]));
+        for i in (0..draft.sure.len()).filter(|i| Some(*i) != surest) {
+            loops.push((draft.sure[i], f, i, surest.unwrap_or(0)));
+        }
+    }
+    loops.sort_by(|a, b| b.0.total_cmp(&a.0));
+    for (_, f, i, surest) in loops {
+        let turned = &mut drafts[f].turned;
+        let differ = turned[i] != turned[surest];
+        if !tie(&mut ways, first[f] + i, first[f] + surest, differ) {
+            turned[i] = !turned[i];
+        }
     }
 }
 
@@ -211,7 +277,7 @@ fn propagate(drafts: &[Draft], uses: &[[Use; 2]]) -> Result<Vec<Shell>, PlanErro
 
 fn shell_volume(shell: &Shell, drafts: &[Draft]) -> f64 {
     let share = |&(face, flip): &(usize, bool)| {
-        let volume: f64 = drafts[face].volume;
+        let volume = drafts[face].volume();
         if flip { -volume } else { volume }
     };
     shell.iter().map(share).sum()
@@ -261,7 +327,7 @@ mod tests {
         };
         let view = View::new(Camera::Parallel, DMat3::IDENTITY);
         let draft = draft(&loops, &plane, &view, &|_| false, &points);
-        assert_eq!(draft.loops[0][0].edge(), 2);
+        assert_eq!(draft.oriented(&loops, false)[0][0].edge(), 2);
         assert_eq!(draft.turned, [true, true]);
     }
 }

@@ -1,4 +1,8 @@
+#include <algorithm>
+
 #include <BRepBuilderAPI_Transform.hxx>
+#include <BRepLib.hxx>
+#include <TopoDS.hxx>
 #include <gp_Trsf.hxx>
 
 #include "bridge.h"
@@ -46,6 +50,11 @@ void run(const Model &model, const Watcher &watcher, Topology &topology, Outcome
   }
   report(watcher, kCheckShare);
   TopoDS_Shape solid = make_solid(model, topology);
+  const auto filled = [](const Face &face) { return face.kind == SurfaceType::Filled; };
+  if (model.shells == 1 && std::any_of(model.faces.begin(), model.faces.end(), filled)) {
+    // Which side of a filled face is out can only be guessed before it is there.
+    BRepLib::OrientClosedSolid(TopoDS::Solid(solid));
+  }
   check_model(model, topology, solid);
 
   report(watcher, kWriteShare);
