@@ -303,6 +303,32 @@ mod tests {
     use glam::DMat3;
 
     #[test]
+    fn a_doubtful_loop_follows_its_neighbours() {
+        // Two faces with both loops in common, of which one is drawn so that its way round is not clear.
+        let ring = |sure: f64, turned: bool| Draft {
+            outer: 0,
+            turned: vec![false, turned],
+            sure: vec![0.05, sure],
+            volumes: vec![0.0; 2],
+            low: DVec3::ZERO,
+            high: DVec3::ONE,
+        };
+        let both = |walk: usize| {
+            [(0, false), (1, true)].map(|(face, reversed)| Use {
+                face,
+                walk,
+                reversed,
+            })
+        };
+        let uses = [both(0), both(1)];
+        let mut drafts = vec![ring(0.04, true), ring(0.001, false)];
+        settle(&mut drafts, &uses);
+        assert_eq!(drafts[0].turned, [false, true]);
+        assert_eq!(drafts[1].turned, [false, true]);
+        assert!(propagate(&drafts, &uses).is_ok());
+    }
+
+    #[test]
     fn outer_loop_of_a_thin_ring_is_the_larger_circle_however_its_edges_are_cut() {
         // The inner circle in halves, of twice the points, and the outer one in one piece.
         let loops = [vec![1, 2], vec![-3]].map(|walk: Vec<i64>| {
