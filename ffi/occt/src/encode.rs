@@ -29,10 +29,12 @@ pub(crate) struct Encoded {
     pub(crate) model: ffi::Model,
     pub(crate) edges: Vec<usize>,
     pub(crate) faces: Vec<usize>,
+    /// Whether some face is filled between several loops.
+    pub(crate) rings: bool,
 }
 
-/// The model of a plan.
-pub(crate) fn encode(plan: &Plan) -> Result<Encoded, OcctError> {
+/// The model of a plan; `apart` as for [`Body::new`].
+pub(crate) fn encode(plan: &Plan, apart: bool) -> Result<Encoded, OcctError> {
     if plan.faces.is_empty() || plan.edges.is_empty() {
         return Err(OcctError::Plan("it has no faces or no edges".to_owned()));
     }
@@ -60,7 +62,7 @@ pub(crate) fn encode(plan: &Plan) -> Result<Encoded, OcctError> {
     for (f, face) in plan.faces.iter().enumerate() {
         check_surface(f, &face.surface)?;
     }
-    let body = Body::new(plan)?;
+    let body = Body::new(plan, apart)?;
     let edges = body
         .edges
         .iter()
@@ -77,6 +79,7 @@ pub(crate) fn encode(plan: &Plan) -> Result<Encoded, OcctError> {
     Ok(Encoded {
         edges: body.edges.iter().map(|e| e.source).collect(),
         faces: body.faces.iter().map(|f| f.source).collect(),
+        rings: body.faces.iter().any(BodyFace::is_filled_ring),
         model: ffi::Model {
             points: body.vertices.iter().map(|&p| point(p * factor)).collect(),
             edges,

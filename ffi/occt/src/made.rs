@@ -138,8 +138,8 @@ impl Place {
 }
 
 /// The face whose surface is given up next: one near the place that is there for another kind, else a
-/// curved one at the place, else one that meets the edge at fault in a vertex; of several the one with
-/// fewest edges.
+/// curved one at the place, else one that meets the edge at fault in a vertex, else one beside the faces
+/// there; of several the one with fewest edges.
 fn suspect(drawing: &Drawing, faces: &[Face], lift: &Lift, at: &Place) -> Option<usize> {
     let coedges = |f: usize| faces[f].loops.iter().flatten();
     let ends = |f: usize| coedges(f).flat_map(|c| drawing.edges[c.edge()].v);
@@ -167,4 +167,5 @@ fn suspect(drawing: &Drawing, faces: &[Face], lift: &Lift, at: &Place) -> Option
     fewest(&|f| stands_in(f) && near(f))
         .or_else(|| fewest(&there))
         .or_else(|| fewest(&|f| ends(f).any(|v| tips.contains(&v))))
+        .or_else(|| fewest(&|f| !anywhere && near(f)))
 }

@@ -104,7 +104,8 @@ impl Solid {
 
 /// Builds the solid of a plan, and checks it.
 ///
-/// Faces that only silhouettes part become one face: a hole is one cylinder with a seam.
+/// Faces that only silhouettes part become one face: a hole is one cylinder with a seam. Where a filled
+/// face with several loops cannot be built in one piece, its parts stay apart.
 ///
 /// # Errors
 /// [`OcctError`] naming the edge or face of the plan at fault, with the partial shell;
@@ -113,11 +114,27 @@ impl Solid {
 /// # Panics
 /// Only if the callback of `progress` panics: its panic goes on.
 pub fn build(plan: &Plan, progress: Progress<'_>) -> Result<Solid, OcctError> {
+    let encoded = encode(plan, false)?;
+    let rings = encoded.rings;
+    let whole = run(encoded, progress);
+    match &whole {
+        Err(OcctError::Edge { .. } | OcctError::Face { .. } | OcctError::Shell { .. }) if rings => {
+            let parts = encode(plan, true).and_then(|parts| run(parts, progress));
+            if parts.is_ok() { parts } else { whole }
+        }
+        _ => whole,
+    }
+}
+
+/// Builds and checks what was encoded.
+
+fn run(encoded: Encoded, progress: Progress<'_>) -> Result<Solid, OcctError> {
     let Encoded {
         model,
         edges,
         faces,
-    } = encode(plan)?;
+        ..
+    } = encoded;
     let watcher = Watcher::new(progress);
     let outcome = ffi::build(&model, &watcher);
     watcher.resume();
@@ -241,7 +258,7 @@ mod tests {
     /// fail but end the process.
     #[test]
     fn occt_exception_becomes_an_error() {
-        let mut model = encode(&tetrahedron()).unwrap().model;
+        let mut model = encode(&tetrahedron(), false).unwrap().model;
         model.scale = 0.0;
         let error = ffi::build(&model, &Watcher::new(Progress::none())).unwrap_err();
         assert!(
@@ -252,7 +269,7 @@ mod tests {
 
     #[test]
     fn occt_exception_of_one_edge_names_the_edge() {
-        let mut model = encode(&tetrahedron()).unwrap().model;
+        let mut model = encode(&tetrahedron(), false).unwrap().model;
         model.edges[3].kind = ffi::CurveKind::Ellipse;
         let outcome = ffi::build(&model, &Watcher::new(Progress::none())).unwrap();
         assert_eq!((outcome.fault, outcome.number), (ffi::Fault::Edge, 4));

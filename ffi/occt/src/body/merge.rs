@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use faceformer::drawing::CoEdge;
-use faceformer::plan::{Plan, Surface3};
+use faceformer::plan::Plan;
 use faceformer::polygon::contains;
 use glam::{DVec2, DVec3};
 
@@ -15,12 +15,15 @@ use crate::groups::Groups;
 const STEPS: usize = 16;
 
 /// The plan without silhouettes, but for those that keep a filled face from running around like a pipe:
-/// no surface of one piece can be laid through its ends.
-pub(super) fn merged(plan: &Plan) -> Body {
+/// no surface of one piece can be laid through its ends. If `apart`, all those of filled faces with several
+/// loops stay.
+pub(super) fn merged(plan: &Plan, apart: bool) -> Body {
     let all: Vec<bool> = plan.edges.iter().map(|e| e.silhouette).collect();
     let (body, groups) = without(plan, &all);
     let faces = body.faces.iter();
-    let rings: Vec<bool> = faces.map(|face| is_filled_ring(&body, face)).collect();
+    let rings: Vec<bool> = faces
+        .map(|face| face.is_filled_ring() && (apart || is_pipe(&body, face)))
+        .collect();
     if !rings.contains(&true) {
         return body;
     }
@@ -35,12 +38,9 @@ pub(super) fn merged(plan: &Plan) -> Body {
     without(plan, &some).0
 }
 
-/// Whether a filled face runs around like a pipe: some of its loops is not within the largest, seen
-/// along that one's normal.
-fn is_filled_ring(body: &Body, face: &BodyFace) -> bool {
-    if !matches!(face.surface, Surface3::Filled) || face.loops.len() < 2 {
-        return false;
-    }
+/// Whether a face runs around like a pipe: some of its loops is not within the largest, seen along that
+/// one's normal.
+fn is_pipe(body: &Body, face: &BodyFace) -> bool {
     let line = |walk: &Vec<CoEdge>| -> Vec<DVec3> {
         let points = |c: &CoEdge| body.points(*c, STEPS).into_iter().skip(1);
         walk.iter().flat_map(points).collect()

@@ -47,14 +47,15 @@ pub(crate) struct BodyFace {
 }
 
 impl Body {
-    /// The body of a plan.
+    /// The body of a plan; if `apart`, without making one of the parts of filled faces that have several
+    /// loops then.
     ///
     /// # Errors
     /// [`OcctError::Plan`] for indices out of range, [`OcctError::Face`] if a face runs around its
     /// surface in a way that has no seam.
-    pub(crate) fn new(plan: &Plan) -> Result<Self, OcctError> {
+    pub(crate) fn new(plan: &Plan, apart: bool) -> Result<Self, OcctError> {
         check(plan)?;
-        let mut body = merge::merged(plan);
+        let mut body = merge::merged(plan, apart);
         for face in 0..body.faces.len() {
             seam::close(&mut body, face)?;
         }
@@ -78,6 +79,13 @@ impl Body {
     /// Vertex where a co-edge ends.
     fn end(&self, coedge: CoEdge) -> usize {
         self.start(coedge.mate())
+    }
+}
+
+impl BodyFace {
+    /// Whether it is filled between several loops.
+    pub(crate) fn is_filled_ring(&self) -> bool {
+        matches!(self.surface, Surface3::Filled) && self.loops.len() > 1
     }
 }
 
