@@ -40,6 +40,23 @@ fn faces_turned_inside_out_have_no_positive_volume() {
 }
 
 #[test]
+fn with_a_filled_face_the_whole_is_turned_right_side_out() {
+    let mut plan = prism(&SQUARE);
+    let volume = build(&plan, Progress::none()).unwrap().report().volume;
+    for face in &mut plan.faces {
+        for walk in &mut face.loops {
+            *walk = walk.iter().rev().map(|c| c.mate()).collect();
+        }
+        if let Surface3::Plane { normal, .. } = &mut face.surface {
+            *normal = -*normal;
+        }
+    }
+    plan.faces[0].surface = Surface3::Filled;
+    let turned = build(&plan, Progress::none()).unwrap().report().volume;
+    assert!((turned - volume).abs() < 1e-9, "{turned} {volume}");
+}
+
+#[test]
 fn one_face_turned_is_named() {
     let mut plan = prism(&SQUARE);
     let face = &mut plan.faces[2];

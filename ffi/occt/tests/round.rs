@@ -288,6 +288,40 @@ fn a_patch_between_unequal_arches_holds_its_edges() {
 }
 
 #[test]
+fn the_wall_of_a_pipe_is_filled_in_halves_and_that_of_a_dome_in_one_piece() {
+    let wall = |radius: f64, height: f64| {
+        // Two halves from a circle below to one above; outlines part them.
+        let mut draft = Draft::default();
+        for (r, z) in [(1.0, 0.0), (radius, height)] {
+            for x in [-r, r] {
+                draft.vertex(DVec3::new(x, 0.0, z));
+            }
+        }
+        for (v, z) in [
+            ([0, 1], 0.0),
+            ([1, 0], 0.0),
+            ([2, 3], height),
+            ([3, 2], height),
+        ] {
+            draft.arc(v, DVec3::Z * z, DVec3::Z);
+        }
+        for v in [[0, 2], [1, 3]] {
+            draft.edge(v, Curve3::Line, true);
+        }
+        draft.plane(DVec3::ZERO, -DVec3::Z, &[&[-2, -1]]);
+        draft.plane(DVec3::Z * height, DVec3::Z, &[&[3, 4]]);
+        draft.face(Surface3::Filled, &[&[1, 6, -3, -5]]);
+        draft.face(Surface3::Filled, &[&[2, 5, -4, -6]]);
+        draft.solid()
+    };
+    let pipe = wall(1.0, 2.0);
+    assert_eq!(pipe.report().face_counts.other, 2);
+    let volume = pipe.report().volume;
+    assert!((volume / (2.0 * PI) - 1.0).abs() < 1e-3, "{volume}");
+    assert_eq!(wall(0.3, 0.2).report().face_counts.other, 1);
+}
+
+#[test]
 fn a_patch_between_three_arcs_is_laid_as_a_plate() {
     // The corner of a ball, its round face unknown.
     let mut draft = Draft::default();

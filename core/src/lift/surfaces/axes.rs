@@ -70,3 +70,35 @@ pub(super) fn axes(evidence: &Evidence) -> Vec<Axis> {
     }
     all
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lift::surfaces::evidence::Sight;
+
+    #[test]
+    fn outlines_that_meet_give_an_axis_through_the_apex() {
+        let apex = DVec3::new(0.1, 0.2, 0.3);
+        let end = |p: DVec3| {
+            let sight = Sight {
+                from: p,
+                direction: DVec3::Z,
+            };
+            (p, sight)
+        };
+        let evidence = |ends: [DVec3; 4]| Evidence {
+            vertices: Vec::new(),
+            bounds: Vec::new(),
+            outlines: Vec::new(),
+            bent: false,
+            outline_ends: ends.map(end).into(),
+            discs: Vec::new(),
+            directions: vec![DVec3::X, DVec3::Y],
+            size: 1.0,
+        };
+        let found = axes(&evidence([apex, DVec3::X, DVec3::Y, apex]));
+        let through: Vec<_> = found.iter().map(|a| (a.origin, a.direction)).collect();
+        assert_eq!(through, [(apex, DVec3::X), (apex, DVec3::Y)]);
+        assert!(axes(&evidence([apex, DVec3::X, DVec3::Y, DVec3::ZERO])).is_empty());
+    }
+}

@@ -260,5 +260,11 @@ mod tests {
         let sagitta = 0.2 * (1.0 - f64::to_radians(45.0).cos());
         assert!((off - sagitta).abs() < 1e-6, "{off}");
         assert_eq!(cylinder(&sheet, &heights, bevel), None);
+        let all = super::super::surfaces(&sheet, &heights);
+        assert!(
+            matches!(all[bevel], Surface::Plane { .. }),
+            "{:?}",
+            all[bevel]
+        );
     }
 }

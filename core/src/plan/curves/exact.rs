@@ -121,3 +121,30 @@ pub(super) fn circle(
         minor: v * radius,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_torus_has_circles_around_its_axis_and_around_its_tube() {
+        let torus = Support::Torus {
+            center: DVec3::Z,
+            axis: DVec3::Z,
+            major: 1.0,
+            minor: 0.2,
+        };
+        let top = DVec3::new(1.0, 0.0, 1.2);
+        let around = natural(&torus, [top, DVec3::new(0.0, -1.0, 1.2)], 1e-9);
+        let [circle] = around[..] else {
+            panic!("{around:?}");
+        };
+        assert!(circle.point(2.0).distance(DVec3::Z * 1.2) - 1.0 < 1e-12);
+        let across = natural(&torus, [top, DVec3::new(1.2, 0.0, 1.0)], 1e-9);
+        let [circle] = across[..] else {
+            panic!("{across:?}");
+        };
+        assert!(circle.center.distance(DVec3::new(1.0, 0.0, 1.0)) < 1e-12);
+        assert!(natural(&torus, [top, DVec3::new(0.0, -1.2, 1.0)], 1e-9).is_empty());
+    }
+}
