@@ -68,7 +68,8 @@ fn pencils(sheet: &Sheet<'_>, _: &Unknowns, system: &mut System<Tag>) {
 }
 
 /// The wall of a slot: a planar face stands upright on a floor, which is normal to an axis, where the edge
-/// between them is straight.
+/// between them follows another one. So does a wall with curved edges in any direction, as of a slot in a
+/// dome.
 fn square(sheet: &Sheet<'_>, unknowns: &Unknowns, system: &mut System<Tag>) {
     let count = sheet.directions.axes.len();
     // Normals of planar faces that circles or two axes tell.
@@ -84,18 +85,21 @@ fn square(sheet: &Sheet<'_>, unknowns: &Unknowns, system: &mut System<Tag>) {
         if level(face).is_some() {
             continue;
         }
+        // The side of a pyramid is no wall; what a turned part's surface cuts is.
+        let edges = || sheet.edges_of(face).iter().copied();
+        let cut = edges().any(|e| !sheet.is_straight(e));
         let upright = |edge: usize| {
             let floor = sheet.neighbours(edge).iter().find(|f| **f != face)?;
             let up = level(*floor).filter(|_| sheet.is_planar(*floor))?;
             let along = match sheet.edge_axis[edge] {
                 Some(k) if k == up => return None,
                 Some(k) => sheet.axis(k),
-                None => on_level(sheet, edge, sheet.axis(up)),
+                None if cut => on_level(sheet, edge, sheet.axis(up)),
+                None => return None,
             };
             sheet.axis(up).cross(along).try_normalize()
         };
-        let edges = sheet.edges_of(face).iter().copied();
-        let mut straight: Vec<usize> = edges.filter(|&e| sheet.is_straight(e)).collect();
+        let mut straight: Vec<usize> = edges().filter(|&e| sheet.is_straight(e)).collect();
         // What follows an axis is surest.
         straight.sort_by_key(|&e| sheet.edge_axis[e].is_none());
         if let Some(normal) = straight.into_iter().find_map(upright) {
