@@ -64,6 +64,9 @@ pub fn make(
         given.push(parts.collect());
         trial = without(lift, &given);
         let next = attempt(&trial);
+        if is_cancelled(&next) {
+            return next;
+        }
         place = Place::of(&next);
         found = next.ok().filter(|made| made.solid.is_ok());
     }
@@ -75,6 +78,7 @@ pub fn make(
         let back = given.remove(i);
         match attempt(&without(lift, &given)) {
             Ok(better) if better.solid.is_ok() => made = better,
+            stopped if is_cancelled(&stopped) => return stopped,
             _ => given.insert(i, back),
         }
     }
@@ -85,6 +89,13 @@ pub fn make(
     *lift = without(lift, &given);
     made.freed = freed;
     Ok(made)
+}
+
+fn is_cancelled(attempt: &Result<Made, Error>) -> bool {
+    match attempt {
+        Err(error) => *error == Error::Cancelled,
+        Ok(made) => made.solid == Err(OcctError::Cancelled),
+    }
 }
 
 /// A lift without the surfaces of some faces.

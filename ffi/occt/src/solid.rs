@@ -119,15 +119,16 @@ pub fn build(plan: &Plan, progress: Progress<'_>) -> Result<Solid, OcctError> {
     let whole = run(encoded, progress);
     match &whole {
         Err(OcctError::Edge { .. } | OcctError::Face { .. } | OcctError::Shell { .. }) if rings => {
-            let parts = encode(plan, true).and_then(|parts| run(parts, progress));
-            if parts.is_ok() { parts } else { whole }
+            match encode(plan, true).and_then(|parts| run(parts, progress)) {
+                parts @ (Ok(_) | Err(OcctError::Cancelled)) => parts,
+                Err(_) => whole,
+            }
         }
         _ => whole,
     }
 }
 
 /// Builds and checks what was encoded.
-
 fn run(encoded: Encoded, progress: Progress<'_>) -> Result<Solid, OcctError> {
     let Encoded {
         model,
