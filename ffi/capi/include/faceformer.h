@@ -319,6 +319,9 @@ void faceformer_bytes_free(uint8_t *bytes, size_t len);
  * in their order, and the first one without fault is taken; the report says so. Leave it at 0 where
  * the user chose the faces. `callback` is null or hears progress and may cancel; it gets `user`.
  *
+ * A face whose surface is found but fits no solid is filled, and the plan's `notices` say so; the
+ * faces count as being without a solid where `alternatives` are tried.
+ *
  * Returns `FACEFORMER_STATUS_FAILED` if depth or a valid closed solid cannot be had; the message
  * names the face or edge. If OpenCASCADE had begun a shell by then, `*out` is NOT null but a
  * handle for inspection: its report has `"partial": true`, and `faceformer_solid_brep` gives the
