@@ -9,7 +9,7 @@ use faceformer::identify::{Face, Identification};
 use faceformer::lift::{Lift, LiftOptions, lift};
 use faceformer::plan::{Orientation, Plan, PlanOptions};
 use faceformer::readings::{self, Taken};
-use faceformer_occt::{Format, Solid, SolidReport, make as make_solid};
+use faceformer_occt::{Format, Solid, SolidReport, reconstruct};
 use serde::Serialize;
 
 use crate::args::{OrientationArg, SolidArgs};
@@ -128,7 +128,7 @@ pub(crate) struct Made {
     /// The solid with its plan, or the failure of the stage at fault.
     pub(crate) built: Result<(Plan, Solid), Failure>,
     /// Faces whose surfaces were given up for it.
-    freed: Vec<usize>,
+    given_up: Vec<usize>,
     /// Time that plan and solid took.
     pub(crate) build_time: Duration,
 }
@@ -142,21 +142,23 @@ impl Made {
         let start = Instant::now();
         let (lift, made) = match lifted {
             Ok(mut lift) => {
-                let made = make_solid(drawing, faces, &mut lift, options, Progress::none());
+                let made = reconstruct(drawing, faces, &mut lift, options, Progress::none());
                 (Some(lift), made)
             }
             Err(error) => (None, Err(error)),
         };
-        let freed = made.as_ref().map_or(Vec::new(), |m| m.freed.clone());
-        let built = match made {
-            Ok(made) => made.solid.map(|s| (made.plan, s)).map_err(Into::into),
-            Err(error) => Err(error.into()),
+        let (built, given_up) = match made {
+            Ok(made) => {
+                let built = made.solid.map(|solid| (made.plan, solid));
+                (built.map_err(Into::into), made.given_up)
+            }
+            Err(error) => (Err(error.into()), Vec::new()),
         };
         Self {
             lift,
             lift_time,
             built,
-            freed,
+            given_up,
             build_time: start.elapsed(),
         }
     }
@@ -167,7 +169,7 @@ impl Made {
             Err(failure) => Some(readings::failure(failure)),
             Ok(_) => {
                 let conflict = self.lift.as_ref().and_then(readings::conflict);
-                conflict.or_else(|| readings::freed(&self.freed))
+                conflict.or_else(|| readings::given_up(&self.given_up))
             }
         }
     }

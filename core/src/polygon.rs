@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 /// Area, positive if the polygon runs counter-clockwise.
-pub fn signed_area(polygon: &[DVec2]) -> f64 {
+pub(crate) fn signed_area(polygon: &[DVec2]) -> f64 {
     let n = polygon.len();
     (0..n)
         .map(|i| polygon[i].perp_dot(polygon[(i + 1) % n]))

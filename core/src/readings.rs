@@ -78,7 +78,7 @@ pub fn conflict(lift: &Lift) -> Option<String> {
 }
 
 /// What is wrong with a reading of which some faces' surfaces, from 0, had to be given up.
-pub fn freed(faces: &[usize]) -> Option<String> {
+pub fn given_up(faces: &[usize]) -> Option<String> {
     let first = faces.first()?;
     Some(format!(
         "has no surface that fits the edges of face {}",

@@ -385,3 +385,25 @@ fn only_hit(sheet: &Sheet<'_>, edge: usize, p: DVec2, d: DVec2) -> Option<DVec2>
     let first = hits.next()?;
     hits.next().is_none().then_some(first)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lift::directions::Directions;
+    use crate::lift::testing::{extrusion, turned};
+
+    #[test]
+    fn straight_edges_of_a_floor_are_where_its_normal_puts_them() {
+        let turn = turned(25.0, 35.0, 10.0);
+        let (drawing, faces) = extrusion(turn, &[[0.0, 0.0], [1.0, 0.2], [0.3, 0.9]], 0.6);
+        let directions = Directions::estimate(&drawing).unwrap();
+        let sheet = Sheet::new(&drawing, &faces, &directions);
+        let truth = drawing.truth.as_ref().unwrap();
+        let floor = faces.last().unwrap();
+        for edge in floor.edge_set() {
+            let [a, b] = drawing.edges[edge].v.map(|v| truth.vertices3d[v]);
+            let found = on_level(&sheet, edge, turn * DVec3::Z);
+            assert!(found.normalize().cross((b - a).normalize()).length() < 1e-9);
+        }
+    }
+}

@@ -14,10 +14,12 @@ use super::view::View;
 /// Steps along a curve when loops are measured.
 const STEPS: usize = 24;
 
-/// The same where loops are compared whose areas differ by less than this share: polygons in a circle of
-/// so many corners are too small by one percent.
-const FINE: usize = 32 * STEPS;
+/// Areas that differ by less than this share may be in the wrong order: a polygon of [`STEPS`] corners is
+/// one percent smaller than its circle.
 const ALIKE: f64 = 0.05;
+
+/// Steps along a curve when such areas are compared.
+const FINE: usize = 32 * STEPS;
 
 /// A face with its loops in the order and direction of the plan.
 #[derive(Debug, Clone)]
@@ -72,8 +74,8 @@ impl Draft {
 /// What is left is one choice for each shell: its volume is positive, or negative if it is a void
 /// inside another shell.
 ///
-/// `points` gives the points along a co-edge at so many steps without the last one, `silhouette` tells which edges
-/// are outlines, along which a face is seen edge-on.
+/// `points` gives the points along a co-edge at so many steps without the last one, `silhouette` tells
+/// which edges are outlines, along which a face is seen edge-on.
 pub(super) fn orient(
     loops: &[Vec<Vec<CoEdge>>],
     supports: &[Support],

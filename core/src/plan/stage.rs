@@ -49,16 +49,16 @@ pub fn plan(drawing: &Drawing, faces: &[Face], lift: &Lift, options: &PlanOption
     let size = drawing.size();
     let least = SNAP_LEAST * size;
     let length = (10.0 * lift.residual).clamp(least, SNAP_MOST * size);
-    let first = snapped(drawing, faces, lift, options, length);
+    let first = planned(drawing, faces, lift, options, length);
     if first.is_ok() || length <= least {
         return first;
     }
     // One doubtful face makes the residual large; snapping by as much may move what was right.
-    snapped(drawing, faces, lift, options, least).or(first)
+    planned(drawing, faces, lift, options, least).or(first)
 }
 
 /// The plan with surfaces snapped within a length.
-fn snapped(
+fn planned(
     drawing: &Drawing,
     faces: &[Face],
     lift: &Lift,
@@ -107,7 +107,7 @@ fn snapped(
     let measured = measured(drawing, faces, lift, &view, &lifted)?;
     let tips = (0..faces.len()).filter(|&f| matches!(measured[f].support, Support::Cone { .. }));
     notices.extend(tips.filter_map(|f| assumed_tip(faces, &uses, f)));
-    let mut smooth = smooth_joints(drawing, faces, &uses, &measured, &|e| {
+    let mut smooth = smooth_joints(drawing, faces, &uses, &measured, |e| {
         let ends = drawing.edges[e].v.map(|v| lifted[v]);
         let outlines = |u: &Use| {
             let surface = &measured[u.face].support;
@@ -342,7 +342,7 @@ fn smooth_joints(
     faces: &[Face],
     uses: &[[Use; 2]],
     measured: &[Measured],
-    is_outline: &dyn Fn(usize) -> bool,
+    is_outline: impl Fn(usize) -> bool,
 ) -> Vec<Joint> {
     let doubly_curved = |face: usize| {
         let support = &measured[face].support;

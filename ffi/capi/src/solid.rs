@@ -148,7 +148,7 @@ struct Made {
     lift: Lift,
     plan: Plan,
     shape: Shape,
-    freed: Vec<usize>,
+    given_up: Vec<usize>,
 }
 
 /// Makes the solid of the first reading without fault.
@@ -189,7 +189,7 @@ fn attempt(
         scale: options.scale,
         orientation: options.orientation,
     };
-    let made = faceformer_occt::make(drawing, faces, &mut lift, &plan_options, progress)?;
+    let made = faceformer_occt::reconstruct(drawing, faces, &mut lift, &plan_options, progress)?;
     let shape = match made.solid {
         Ok(solid) => Shape::Whole(solid),
         Err(error) if error.partial().is_some() => Shape::Partial(error),
@@ -199,7 +199,7 @@ fn attempt(
         lift,
         plan: made.plan,
         shape,
-        freed: made.freed,
+        given_up: made.given_up,
     })
 }
 
@@ -210,7 +210,7 @@ fn fault(made: &Result<Made, CallError>) -> Option<String> {
             shape: Shape::Partial(error),
             ..
         }) => Some(readings::failure(error)),
-        Ok(made) => readings::conflict(&made.lift).or_else(|| readings::freed(&made.freed)),
+        Ok(made) => readings::conflict(&made.lift).or_else(|| readings::given_up(&made.given_up)),
         Err(error) if error.status() == FaceformerStatus::Cancelled => None,
         Err(error) => Some(readings::failure(error)),
     }

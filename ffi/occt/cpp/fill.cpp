@@ -170,7 +170,7 @@ std::vector<Side> four_sides(const Loop &loop, const Topology &topology) {
         best = i;
       }
     }
-    // The seam of the list is no corner that may go.
+    // Between the last side and the first: the two are made neighbours in the list.
     if (best + 1 == sides.size()) {
       std::rotate(sides.begin(), sides.begin() + 1, sides.end());
       --best;

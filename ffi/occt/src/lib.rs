@@ -1,8 +1,8 @@
 //! Builds a [`Plan`](faceformer::plan::Plan) as an OpenCASCADE solid.
 //!
-//! One coarse call, [`build`], builds and checks a whole solid; [`make`] plans it first, and gives up the
-//! surfaces that none can be built with. Vertices and edges are
-//! shared between faces from the start; loose faces are never sewn. Planes, cylinders, cones,
+//! One coarse call, [`build`], builds and checks a whole solid; [`reconstruct`] plans it first, and
+//! gives up the surfaces that none can be built with. Vertices and edges are shared between faces from
+//! the start; loose faces are never sewn. Planes, cylinders, cones,
 //! spheres and tori, lines, circles and ellipses stay what they are; silhouettes are taken out
 //! first, so that a hole is one cylinder face with a seam. A face on a surface of no known kind is
 //! filled, and reported with its deviation. What comes out is valid, closed, of positive volume and
@@ -26,11 +26,11 @@ mod bridge;
 mod encode;
 mod error;
 mod groups;
-mod made;
+mod reconstruct;
 mod report;
 mod solid;
 
 pub use error::OcctError;
-pub use made::{Made, make};
+pub use reconstruct::{Reconstruction, reconstruct};
 pub use report::{FaceCounts, FilledFace, SolidReport};
 pub use solid::{Format, Solid, build, occt_version};

@@ -78,8 +78,9 @@ impl Place<'_> {
 ///
 /// A straight edge stays straight. A curved one is where its surfaces meet: a circle between
 /// surfaces around one axis, a circle or ellipse where a plane cuts a cylinder, cone or sphere;
-/// between two faces of one plane what is drawn, lifted onto it; beside a surface of no kind a circle that
-/// the other one has by itself; else a curve through points, or a circle or ellipse if these lie on one. A silhouette is only where it is drawn.
+/// between two faces of one plane what is drawn, lifted onto it; beside a surface of no kind a circle
+/// that the other one has by itself; else a curve through points, or a circle or ellipse if these lie on
+/// one. A silhouette is only where it is drawn.
 ///
 /// # Errors
 /// [`PlanError::OffSurface`] or [`PlanError::Curve`] if the surfaces do not meet where it is drawn.

@@ -21,13 +21,11 @@ pub(super) fn halves(groups: Vec<Group>, smooth: &[Joint], tolerance: f64) -> Ve
     };
     let one = |joint: &Joint| {
         let pair = joint.faces.map(|f| &groups[f]);
-        let most = tolerance
-            .max(1.5 * pair[0].gap(&pair[0].support))
-            .max(1.5 * pair[1].gap(&pair[1].support));
-        near(&pair[0].support, &pair[1].support)
-            && (joint.outline
-                || average(pair.map(Clone::clone).into())
-                    .is_some_and(|whole| whole.gap(&whole.support) <= most))
+        let fits_both = || {
+            let whole = average(pair.map(Clone::clone).into());
+            whole.is_some_and(|w| pair.iter().all(|part| part.fits(&w.support, tolerance)))
+        };
+        near(&pair[0].support, &pair[1].support) && (joint.outline || fits_both())
     };
     for joint in smooth {
         if one(joint) {

@@ -7,7 +7,7 @@ use faceformer::identify::{Face, from_truth};
 use faceformer::lift::{Lift, LiftOptions, Surface, lift};
 use faceformer::plan::{PlanOptions, Surface3};
 use faceformer::{Error, Progress};
-use faceformer_occt::make;
+use faceformer_occt::{Reconstruction, reconstruct};
 use glam::DVec3;
 
 /// A machined block of the corpus, all planes.
@@ -37,9 +37,9 @@ fn surfaces_that_fit_stay() {
     let (drawing, faces, mut lifted) = block();
     let before = lifted.clone();
     let options = PlanOptions::default();
-    let made = make(&drawing, &faces, &mut lifted, &options, Progress::none()).unwrap();
+    let made = reconstruct(&drawing, &faces, &mut lifted, &options, Progress::none()).unwrap();
     assert!(made.solid.is_ok());
-    assert!(made.freed.is_empty());
+    assert!(made.given_up.is_empty());
     assert_eq!(lifted, before);
 }
 
@@ -47,16 +47,16 @@ fn surfaces_that_fit_stay() {
 fn a_face_whose_surface_misses_its_edges_is_filled_and_told() {
     let (drawing, faces, mut lifted) = block();
     let options = PlanOptions::default();
-    let right = make(&drawing, &faces, &mut lifted, &options, Progress::none()).unwrap();
+    let right = reconstruct(&drawing, &faces, &mut lifted, &options, Progress::none()).unwrap();
     let wrong = simple(&faces);
     lifted.surfaces[wrong] = TUBE;
-    let made = make(&drawing, &faces, &mut lifted, &options, Progress::none()).unwrap();
-    assert_eq!(made.freed, [wrong]);
+    let made = reconstruct(&drawing, &faces, &mut lifted, &options, Progress::none()).unwrap();
+    assert_eq!(made.given_up, [wrong]);
     assert_eq!(lifted.surfaces[wrong], Surface::Unknown);
     assert_eq!(made.plan.faces[wrong].surface, Surface3::Filled);
     let told = format!("the cylinder of face {};", wrong + 1);
     assert!(made.plan.notices.iter().any(|n| n.contains(&told)));
-    let volume = |made: &faceformer_occt::Made| made.solid.as_ref().unwrap().report().volume;
+    let volume = |made: &Reconstruction| made.solid.as_ref().unwrap().report().volume;
     assert!((volume(&made) / volume(&right) - 1.0).abs() < 1e-4);
 }
 
@@ -86,7 +86,7 @@ fn what_cannot_be_helped_is_left_as_it_is() {
     };
     let before = lifted.clone();
     let options = PlanOptions::default();
-    let made = make(&drawing, &faces, &mut lifted, &options, Progress::none());
+    let made = reconstruct(&drawing, &faces, &mut lifted, &options, Progress::none());
     assert!(matches!(made, Err(Error::Plan(_))));
     assert_eq!(lifted, before);
 }

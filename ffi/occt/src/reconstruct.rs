@@ -13,13 +13,13 @@ const ROUNDS: usize = 4;
 
 /// A plan, and what came of it.
 #[derive(Debug)]
-pub struct Made {
+pub struct Reconstruction {
     /// The plan that was built.
     pub plan: Plan,
     /// The solid, or why there is none.
     pub solid: Result<Solid, OcctError>,
     /// Faces, from 0, whose surfaces were given up: they are filled, and the plan's notices say so.
-    pub freed: Vec<usize>,
+    pub given_up: Vec<usize>,
 }
 
 /// Plans and builds the solid of a lifted drawing.
@@ -29,24 +29,25 @@ pub struct Made {
 /// first failure is given.
 ///
 /// # Errors
-/// [`PlanError`] if no plan can be had, [`Error::Cancelled`] if `progress` asked to stop while planning.
+/// [`PlanError`] if no plan can be had. What the kernel says, [`OcctError::Cancelled`] too if `progress`
+/// asked to stop, is in [`Reconstruction::solid`].
 ///
 /// # Panics
 /// Only if the callback of `progress` panics.
-pub fn make(
+pub fn reconstruct(
     drawing: &Drawing,
     faces: &[Face],
     lift: &mut Lift,
     options: &PlanOptions,
     progress: Progress<'_>,
-) -> Result<Made, Error> {
+) -> Result<Reconstruction, Error> {
     let attempt = |lift: &Lift| {
         let plan = plan(drawing, faces, lift, options)?;
         let solid = build(&plan, progress);
-        Ok(Made {
+        Ok(Reconstruction {
             plan,
             solid,
-            freed: Vec::new(),
+            given_up: Vec::new(),
         })
     };
     let first = attempt(lift);
@@ -82,20 +83,17 @@ pub fn make(
             _ => given.insert(i, back),
         }
     }
-    let mut freed: Vec<usize> = given.concat();
-    freed.sort_unstable();
-    let notices = freed.iter().map(|&f| notice(f, &lift.surfaces[f]));
+    let mut given_up: Vec<usize> = given.concat();
+    given_up.sort_unstable();
+    let notices = given_up.iter().map(|&f| notice(f, &lift.surfaces[f]));
     made.plan.notices.extend(notices);
     *lift = without(lift, &given);
-    made.freed = freed;
+    made.given_up = given_up;
     Ok(made)
 }
 
-fn is_cancelled(attempt: &Result<Made, Error>) -> bool {
-    match attempt {
-        Err(error) => *error == Error::Cancelled,
-        Ok(made) => made.solid == Err(OcctError::Cancelled),
-    }
+fn is_cancelled(attempt: &Result<Reconstruction, Error>) -> bool {
+    matches!(attempt, Ok(made) if made.solid == Err(OcctError::Cancelled))
 }
 
 /// A lift without the surfaces of some faces.
@@ -122,8 +120,9 @@ struct Place {
 
 impl Place {
     /// Where an attempt failed, if other surfaces may help.
-    fn of(attempt: &Result<Made, Error>) -> Option<Self> {
+    fn of(attempt: &Result<Reconstruction, Error>) -> Option<Self> {
         let at = |edges: &[usize], faces: &[usize]| {
+            // The kernel's 0, which is no place, becomes a number that nothing has.
             let from_one = |list: &[usize]| list.iter().map(|i| i.wrapping_sub(1)).collect();
             Some(Self {
                 edges: from_one(edges),
