@@ -21,7 +21,7 @@ const TOOLKITS: [&str; 10] = [
 ];
 
 /// C++ files of the bridge, without folder and suffix.
-const SOURCES: [&str; 13] = [
+const SOURCES: [&str; 14] = [
     "build",
     "chart",
     "check",
@@ -30,6 +30,7 @@ const SOURCES: [&str; 13] = [
     "face",
     "fill",
     "guard",
+    "project",
     "properties",
     "quiet",
     "topology",

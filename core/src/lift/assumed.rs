@@ -4,6 +4,7 @@
 use glam::{DVec2, DVec3};
 
 use super::camera::Relation;
+use super::coaxial;
 use super::directions::AGREE;
 use super::revolved;
 use super::rows::{Tag, Unknowns, along, beside_axes, normal_to};
@@ -20,7 +21,7 @@ const SAME: f64 = 1e-3;
 pub(super) type Level = fn(&Sheet<'_>, &Unknowns, &mut System<Tag>);
 
 /// The sets, surest first.
-pub(super) const LEVELS: [Level; 12] = [
+pub(super) const LEVELS: [Level; 14] = [
     parallel,
     // The sides of a frustum would pass for ends of prisms.
     frustums,
@@ -34,6 +35,8 @@ pub(super) const LEVELS: [Level; 12] = [
     generators,
     pencils,
     square,
+    coaxial::discs,
+    coaxial::on_one_line,
 ];
 
 /// Edges that are drawn parallel are parallel: their rises are as their drawn lengths.

@@ -23,6 +23,9 @@ const GRAZING: f64 = 0.02;
 /// A line of sight that passes a surface by less than this share of the drawing's size touches it.
 const TOUCHES: f64 = 1e-3;
 
+/// A crossing goes on from the one before it if it is that many times as near to it as any other.
+const CLEARLY: f64 = 3.0;
+
 /// A height that a surface gives.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Tie {
@@ -136,15 +139,72 @@ fn heights_on(
         }
     }
     let side = side(sheet, heights, surface, face);
-    surface
-        .crossings(from, ray)
-        .into_iter()
-        .filter_map(|t| {
-            let slope = surface.gradient(from + ray * t).dot(ray.normalize());
-            let seen = side.is_none_or(|s| s == slope.signum());
-            (slope.abs() > GRAZING && seen).then(|| tie(t, 4.0 * precision / slope.abs()))
-        })
+    let slope = |t: f64| surface.gradient(from + ray * t).dot(ray.normalize());
+    let mut crossings = surface.crossings(from, ray);
+    crossings.retain(|&t| slope(t).abs() > GRAZING);
+    let seen = |t: &f64| side.is_none_or(|s| s == slope(*t).signum());
+    let mut found: Vec<f64> = crossings.iter().copied().filter(seen).collect();
+    if found.len() > 1
+        && let Some(end) = followed(sheet, heights, surface, vertex, face)
+        && let Some(&nearest) = nearest(&crossings, end)
+    {
+        found = vec![nearest];
+    }
+    let ties = found.into_iter();
+    ties.map(|t| tie(t, 4.0 * precision / slope(t).abs()))
         .collect()
+}
+
+fn nearest(all: &[f64], t: f64) -> Option<&f64> {
+    all.iter()
+        .min_by(|a, b| (*a - t).abs().total_cmp(&(*b - t).abs()))
+}
+
+/// Where the line of sight of a vertex meets a surface if an edge of its face leads there from a known
+/// vertex: along the edge the crossing moves without a jump.
+fn followed(
+    sheet: &Sheet<'_>,
+    heights: &Heights,
+    surface: &Surface,
+    vertex: usize,
+    face: usize,
+) -> Option<f64> {
+    let own = sheet.edges_of(face);
+    let edges = sheet.edges_at(vertex).iter();
+    edges
+        .filter(|e| own.binary_search(e).is_ok())
+        .find_map(|&e| {
+            let edge = &sheet.drawing.edges[e];
+            let start = match edge.v {
+                [u, v] if v == vertex && heights.known[u] => u,
+                [v, u] if v == vertex && heights.known[u] => u,
+                _ => return None,
+            };
+            let mut points = edge.points.clone();
+            if edge.v[0] == vertex {
+                points.reverse();
+            }
+            let (from, ray) = sheet.camera().ray(*points.first()?);
+            let place = sheet.place(*points.first()?, heights.of(start));
+            let mut at = (place - from).dot(ray) / ray.length_squared();
+            let (mut rate, mut last) = (0.0, points[0]);
+            for &p in points.iter().skip(1) {
+                let step = p.distance(last);
+                let (from, ray) = sheet.camera().ray(p);
+                let mut crossings = surface.crossings(from, ray);
+                let ahead = at + rate * step;
+                crossings.sort_by(|a, b| (a - ahead).abs().total_cmp(&(b - ahead).abs()));
+                let (&next, rival) = (crossings.first()?, crossings.get(1));
+                if rival.is_some_and(|r| (r - ahead).abs() < CLEARLY * (next - ahead).abs()) {
+                    return None;
+                }
+                if step > 0.0 {
+                    rate = (next - at) / step;
+                }
+                (at, last) = (next, p);
+            }
+            Some(at)
+        })
 }
 
 /// Where a line of sight touches a surface, or ends at the tip of a cone, if it does within a distance.

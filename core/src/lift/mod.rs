@@ -11,6 +11,7 @@ mod blame;
 mod camera;
 mod chance;
 mod circle;
+mod coaxial;
 mod completion;
 mod conflicts;
 mod dense;
@@ -20,6 +21,7 @@ mod evident;
 mod fillets;
 mod gauge;
 mod heights;
+mod inclined;
 mod metric;
 mod model;
 mod pieces;
@@ -133,7 +135,7 @@ fn lift_exact(
             };
             let shown = explained(&reading);
             let (reading, told) = bends::extended(drawing, faces, reading);
-            (shown + told, reading)
+            (shown + told, inclined::extended(drawing, reading))
         })
         .collect();
     // A normal that bends go on from is the true one of its circle. A frame has no such doubt.

@@ -54,7 +54,7 @@ pub(super) fn on_one_axis(sheet: &Sheet<'_>, _: &Unknowns, system: &mut System<T
                 centers.extend(outlines(sheet, whole[0], &edges));
                 centers.extend(ring);
             }
-            link(sheet, &centers, k, whole[0], system);
+            link(sheet, &centers, k, Tag::Revolved { face: whole[0] }, system);
         }
         bends(sheet, &edges, whole[0], system);
         half_bends(sheet, &edges, whole[0], system);
@@ -183,7 +183,13 @@ fn ring(
 }
 
 /// Rows between each centre and the first one that is drawn on the same axis.
-fn link(sheet: &Sheet<'_>, centers: &[Center], k: usize, face: usize, system: &mut System<Tag>) {
+pub(super) fn link(
+    sheet: &Sheet<'_>,
+    centers: &[Center],
+    k: usize,
+    tag: Tag,
+    system: &mut System<Tag>,
+) {
     let axis = sheet.axis(k);
     let Some((first, others)) = centers.split_first() else {
         return;
@@ -198,7 +204,6 @@ fn link(sheet: &Sheet<'_>, centers: &[Center], k: usize, face: usize, system: &m
             let error =
                 2.0 * error / length + sheet.directions.error * apart.length() / (length * length);
             let row = sheet.camera().along(axis, first.at, other.at);
-            let tag = Tag::Revolved { face };
             first
                 .depth
                 .relate(&other.depth, row, error.recip(), tag, system);

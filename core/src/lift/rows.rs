@@ -30,6 +30,8 @@ pub(super) enum Tag {
     Chord { edge: usize },
     /// Points of a surface of revolution lie on its axis, or at a known distance from it.
     Revolved { face: usize },
+    /// Circles are around one axis.
+    Coaxial,
     /// An edge is parallel to the longest one that is drawn parallel.
     Parallel { edge: usize },
     /// A planar face is the end of a right prism.

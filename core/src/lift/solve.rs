@@ -62,7 +62,7 @@ impl Solved {
                     let beside = sheet.neighbours(edge).iter();
                     beside.for_each(|&face| rows[face] += 1);
                 }
-                Tag::Gauge => {}
+                Tag::Gauge | Tag::Coaxial => {}
             }
         }
         let mut suspects: Vec<(usize, usize)> = rows.into_iter().enumerate().collect();

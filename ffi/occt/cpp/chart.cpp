@@ -37,9 +37,6 @@ constexpr double kOnAxis = 1e-6;
 // A curve in the parameter plane this close to straight is straight.
 constexpr double kStraight = 1e-9;
 
-// Next to a known place a search that ends this far from the point, in inner units, starts anew.
-constexpr double kNear = 1e-4;
-
 double wrapped(double angle) { return std::remainder(angle, kTurn); }
 
 } // namespace
@@ -51,7 +48,7 @@ Chart::Chart(const Face &face)
 }
 
 Chart::Chart(const Handle(Geom_BSplineSurface) & surface)
-    : kind_(SurfaceType::Filled), surface_(surface), projector_(new ShapeAnalysis_Surface(surface)) {}
+    : kind_(SurfaceType::Filled), surface_(surface), projector_(std::make_shared<Projector>(surface)) {}
 
 Chart::Chart(const Chart &other, const gp_Ax3 &frame)
     : kind_(other.kind_), frame_(frame), first_(other.first_), second_(other.second_) {
@@ -91,16 +88,13 @@ gp_Pnt2d Chart::place(const gp_Pnt &point) const {
     ElSLib::TorusParameters(frame_, first_, second_, point, u, v);
     break;
   default:
-    return projector_->ValueOfUV(point, Precision::Confusion());
+    return projector_->place(point);
   }
   return gp_Pnt2d(u, v);
 }
 
 gp_Pnt2d Chart::place(const gp_Pnt &point, const gp_Pnt2d &before) const {
-  // A search all over a B-spline surface takes its time.
-  return kind_ == SurfaceType::Filled
-             ? projector_->NextValueOfUV(before, point, Precision::Confusion(), kNear)
-             : place(point);
+  return kind_ == SurfaceType::Filled ? projector_->place(point, before) : place(point);
 }
 
 bool Chart::is_pole(const gp_Pnt &point) const {

@@ -1,16 +1,17 @@
 // The parameter plane of a curved surface, and curves of edges in it.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include <Geom2d_Curve.hxx>
 #include <Geom_BSplineSurface.hxx>
 #include <Geom_Surface.hxx>
-#include <ShapeAnalysis_Surface.hxx>
 #include <gp_Ax3.hxx>
 #include <gp_Pnt2d.hxx>
 
 #include "curve.h"
+#include "project.h"
 
 namespace faceformer::occt {
 
@@ -60,7 +61,8 @@ private:
   double first_ = 0.0;
   double second_ = 0.0;
   Handle(Geom_Surface) surface_;
-  Handle(ShapeAnalysis_Surface) projector_;
+  // Of a B-spline surface.
+  std::shared_ptr<Projector> projector_;
 };
 
 } // namespace faceformer::occt

@@ -1,4 +1,5 @@
 #include "fill.h"
+#include "project.h"
 
 #include <algorithm>
 #include <functional>
@@ -16,8 +17,6 @@
 #include <GeomPlate_Surface.hxx>
 #include <Geom_BSplineCurve.hxx>
 #include <Geom_TrimmedCurve.hxx>
-#include <Precision.hxx>
-#include <ShapeAnalysis_Surface.hxx>
 #include <Standard_Failure.hxx>
 #include <TColStd_Array1OfReal.hxx>
 #include <gp_XYZ.hxx>
@@ -233,7 +232,7 @@ Handle(Geom_BSplineSurface) plate(const Face &face, const Topology &topology,
 // Largest distance of a face's edges from a surface.
 double deviation(const Face &face, const Topology &topology,
                  const Handle(Geom_BSplineSurface) & surface) {
-  ShapeAnalysis_Surface projector(surface);
+  Projector projector(surface);
   double largest = 0.0;
   for (const Loop &loop : face.loops) {
     for (const std::int32_t coedge : loop.coedges) {
@@ -244,9 +243,8 @@ double deviation(const Face &face, const Topology &topology,
         const gp_Pnt point =
             segment.curve->Value(segment.first + (segment.last - segment.first) * share);
         // Only the first place of an edge is searched for on all of the surface.
-        place = i == 0 ? projector.ValueOfUV(point, Precision::Confusion())
-                       : projector.NextValueOfUV(place, point, Precision::Confusion(), kClose);
-        largest = std::max(largest, projector.Gap());
+        place = i == 0 ? projector.place(point) : projector.place(point, place);
+        largest = std::max(largest, projector.gap());
       }
     }
   }

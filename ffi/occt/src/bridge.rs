@@ -96,6 +96,8 @@ pub(crate) mod ffi {
         shells: u32,
         /// Largest tolerance allowed.
         tolerance: f64,
+        /// The same where faces are filled.
+        filled_tolerance: f64,
         /// The finished solid is scaled by this.
         scale: f64,
     }

@@ -17,6 +17,10 @@ const INNER_SIZE: f64 = 100.0;
 /// Largest tolerance allowed, as a share of the model's half diagonal.
 const TOLERANCE: f64 = 1e-4;
 
+/// The same where faces are filled: a surface laid through many edges misses some, and the report says by
+/// how much.
+const FILLED_TOLERANCE: f64 = 5e-4;
+
 /// OCCT's `Precision::Confusion`: no tolerance of a finished shape is smaller.
 const CONFUSION: f64 = 1e-7;
 
@@ -86,6 +90,7 @@ pub(crate) fn encode(plan: &Plan, apart: bool) -> Result<Encoded, OcctError> {
             faces,
             shells: shells.iter().max().map_or(0, |m| m + 1),
             tolerance: TOLERANCE * size * factor,
+            filled_tolerance: FILLED_TOLERANCE * size * factor,
             scale: factor.recip(),
         },
     })

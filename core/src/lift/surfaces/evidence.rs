@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 use super::flat::best_plane;
 use super::ring::Ring;
 use super::wholes;
-use crate::drawing::Curve2;
+use crate::drawing::{Curve2, SurfaceKind};
 use crate::lift::heights::Heights;
 use crate::lift::sheet::Sheet;
 use crate::lift::{Camera, Surface};
@@ -141,9 +141,16 @@ impl Evidence {
             directions: sheet.directions.axes.iter().map(|a| a.direction).collect(),
             size: sheet.size,
         };
+        let outside = |e: usize| sheet.neighbours(e).iter().find(|f| !part.contains(f));
+        // Of a surface of no kind seams part some faces and outlines others, if any is told to be one.
+        let may_have_seams = wholes::kind(sheet, part) == SurfaceKind::Other
+            && sheet.camera().is_parallel()
+            && edges
+                .iter()
+                .any(|&e| outside(e).is_none() && wholes::is_fold(sheet, e));
         for e in edges {
-            let outside = sheet.neighbours(e).iter().find(|f| !part.contains(f));
-            match outside {
+            match outside(e) {
+                None if may_have_seams && !wholes::is_fold(sheet, e) => {}
                 // Between two parts: an outline.
                 None => evidence.add_outline(sheet, heights, e),
                 // The other part is not taken for one.
@@ -179,6 +186,12 @@ impl Evidence {
     pub(super) fn points(&self) -> impl Iterator<Item = DVec3> + '_ {
         let bounds = self.bounds.iter().flat_map(|b| b.points.iter().copied());
         self.vertices.iter().copied().chain(bounds)
+    }
+
+    /// Whether one circle at most is known, which is on surfaces of all kinds.
+    pub(super) fn is_one_circle(&self) -> bool {
+        let rings = self.rings().count();
+        rings == self.bounds.len() && rings + self.outlines.len() < 2
     }
 
     /// Circles on the boundary, with the surface beside each.

@@ -82,10 +82,10 @@ pub(super) fn surfaces_of(
             if whole.iter().all(|&f| known[f] != Surface::Unknown) {
                 continue;
             }
-            // Only what fits as if it were drawn for it.
+            // Only what fits as if it were drawn for it, or as if it were a spline that stands for it.
             let other = |&f: &usize| sheet.faces[f].kind == SurfaceKind::Other;
             let share = if whole.iter().all(other) {
-                ROUNDS[0]
+                share.min(ROUNDS[1])
             } else {
                 share
             };
@@ -103,7 +103,10 @@ pub(super) fn surfaces_of(
         }
         let evidence = Evidence::new(sheet, heights, whole, &known);
         let instead = match wholes::kind(sheet, whole) {
-            SurfaceKind::Other => judge::stand_in(&evidence, any(&evidence)),
+            // It is no surface to place a vertex by.
+            SurfaceKind::Other if whole.iter().all(|&f| heights.are_known(&sheet.corners[f])) => {
+                judge::stand_in(&evidence, any(&evidence))
+            }
             SurfaceKind::Cone => tip::hidden(sheet, heights, whole, &evidence),
             _ => None,
         };
@@ -121,9 +124,7 @@ pub(super) fn surfaces_of(
 /// A surface of another kind than was said, if it fits as if the drawing were made for it: a torus is
 /// easily taken for a sphere.
 fn another(evidence: &Evidence) -> Option<Surface> {
-    let rings = evidence.rings().count();
-    // One circle is on surfaces of all kinds.
-    if rings == evidence.bounds.len() && rings + evidence.outlines.len() < 2 {
+    if evidence.is_one_circle() {
         return None;
     }
     let axes = axes::axes(evidence);
@@ -165,10 +166,14 @@ fn round(
         }
         let kind = wholes::kind(sheet, part);
         let least = ERRORS * sheet.directions.precision;
+        let is_part = part.len() < whole.len();
         let tolerance = match (kind, before) {
-            (SurfaceKind::Other, _) => ROUNDS[0] * sheet.size,
-            (_, None) if part.len() < whole.len() => continue,
-            (_, Some(before)) if part.len() < whole.len() => (before * sheet.size).max(least),
+            (_, None) if is_part => continue,
+            // Of a part alone some surface fits by chance, and so it does where no outline is.
+            (SurfaceKind::Other, _) if is_part || evidence.outlines.is_empty() => {
+                ROUNDS[0] * sheet.size
+            }
+            (_, Some(before)) if is_part => (before * sheet.size).max(least),
             _ => (share * sheet.size).max(least),
         };
         let candidates = match kind {
@@ -182,7 +187,7 @@ fn round(
                 .flat_map(|axis| profile::tori(&evidence, axis))
                 .chain(bend::tori(&evidence))
                 .collect(),
-            SurfaceKind::Other => any(&evidence),
+            SurfaceKind::Other if !evidence.is_one_circle() => any(&evidence),
             _ => continue,
         };
         let best = |candidates| judge::best(&evidence, candidates, tolerance);

@@ -48,7 +48,7 @@ pub(super) fn kind(sheet: &Sheet<'_>, whole: &[usize]) -> SurfaceKind {
 /// Whether a curve is an outline whatever the faces beside it are: they are parts of one surface then.
 /// An outline leaves a circle by its tangent, and so does the circle's own arc: it is no ellipse, which
 /// tells nothing in perspective.
-fn is_fold(sheet: &Sheet<'_>, edge: usize) -> bool {
+pub(super) fn is_fold(sheet: &Sheet<'_>, edge: usize) -> bool {
     let [a, b] = sheet.drawing.edges[edge].v;
     matches!(sheet.drawing.edges[edge].curve, Curve2::Polyline)
         && sheet.circles[edge].is_none()
