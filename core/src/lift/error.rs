@@ -50,3 +50,13 @@ pub enum LiftError {
     #[error("the depth problem could not be solved: {0}")]
     Solver(String),
 }
+
+impl LiftError {
+    /// Number of vertices left open, of those that say so; the fewer, the nearer the reading came.
+    pub(super) const fn open(&self) -> usize {
+        match self {
+            Self::UnderConstrained { vertices } => vertices.len(),
+            _ => usize::MAX,
+        }
+    }
+}

@@ -146,12 +146,14 @@ fn lift_exact(
     }
     let most = readings.iter().map(|r| r.0).max().unwrap_or(0);
     let mut best: Option<Choice> = None;
-    let mut refusal = None;
+    let mut refusal: Option<LiftError> = None;
     let count = readings.len();
     for (i, (all, reading)) in readings.into_iter().enumerate() {
         progress.report(Stage::Lift, 0.2 + 0.8 * i as f64 / count as f64)?;
         let rival = all == most;
-        if best.as_ref().is_some_and(|b| b.contradictions == 0) && !rival {
+        let settled = best.as_ref().is_some_and(|b| b.contradictions == 0);
+        // What explains little contradicts nothing.
+        if (settled && !rival) || 2 * all < most {
             continue;
         }
         match choice(drawing, faces, reading, rival) {
@@ -161,7 +163,9 @@ fn lift_exact(
                 }
             }
             Err(error) => {
-                refusal.get_or_insert(error);
+                if refusal.as_ref().is_none_or(|r| error.open() < r.open()) {
+                    refusal = Some(error);
+                }
             }
         }
     }

@@ -11,17 +11,19 @@ namespace {
 // Lines of the net either way.
 constexpr int kLines = 24;
 
-// So many of the net's points, the nearest ones, are tried.
+// So many of the net's points, the nearest ones, and of those on the border are tried.
 constexpr std::size_t kStarts = 4;
 
 // Steps from one place; most points need three.
 constexpr int kSteps = 30;
 
+constexpr int kHalvings = 8;
+
 // A step this short, in inner units, is the last.
 constexpr double kLast = 1e-10;
 
 // A place this far from its point, in inner units, is looked for anew.
-constexpr double kNear = 5e-2;
+constexpr double kNear = 1e-4;
 
 } // namespace
 
@@ -34,7 +36,11 @@ Projector::Projector(const Handle(Geom_BSplineSurface) & surface)
   for (int i = 0; i <= kLines; ++i) {
     for (int j = 0; j <= kLines; ++j) {
       const gp_Pnt2d place(u + du * i, v + dv * j);
-      net_.emplace_back(place, surface_.Value(place.X(), place.Y()));
+      const gp_Pnt point = surface_.Value(place.X(), place.Y());
+      net_.emplace_back(place, point);
+      if (i % kLines == 0 || j % kLines == 0) {
+        border_.emplace_back(place, point);
+      }
     }
   }
 }
@@ -76,7 +82,11 @@ gp_Pnt2d Projector::from(const gp_Pnt &point, gp_Pnt2d place) const {
       to_v = in_v(to_v);
       to_u = place.X() + (u - uv * (to_v - place.Y())) / uu;
     }
-    const gp_Pnt2d next(in_u(to_u), in_v(to_v));
+    gp_Pnt2d next(in_u(to_u), in_v(to_v));
+    // Where the surface bends much, a whole step may lead away.
+    for (int j = 0; j < kHalvings && distance(point, next) > off.Magnitude() + kLast; ++j) {
+      next.SetXY((next.XY() + place.XY()) / 2.0);
+    }
     const gp_Vec step = by_u * (next.X() - place.X()) + by_v * (next.Y() - place.Y());
     place = next;
     if (step.Magnitude() < kLast) {
@@ -90,15 +100,18 @@ gp_Pnt2d Projector::place(const gp_Pnt &point) {
   const auto nearer = [&](const auto &a, const auto &b) {
     return a.second.SquareDistance(point) < b.second.SquareDistance(point);
   };
-  std::partial_sort(net_.begin(), net_.begin() + kStarts, net_.end(), nearer);
   gp_Pnt2d best;
   gap_ = Precision::Infinite();
-  for (std::size_t i = 0; i < kStarts; ++i) {
-    const gp_Pnt2d found = from(point, net_[i].first);
-    const double gap = distance(point, found);
-    if (gap < gap_) {
-      best = found;
-      gap_ = gap;
+  // What is sought lies on the border, mostly, and a surface that folds may come near it elsewhere.
+  for (Net *net : {&net_, &border_}) {
+    std::partial_sort(net->begin(), net->begin() + kStarts, net->end(), nearer);
+    for (std::size_t i = 0; i < kStarts && gap_ > kNear; ++i) {
+      const gp_Pnt2d found = from(point, (*net)[i].first);
+      const double gap = distance(point, found);
+      if (gap < gap_) {
+        best = found;
+        gap_ = gap;
+      }
     }
   }
   return best;
@@ -107,7 +120,16 @@ gp_Pnt2d Projector::place(const gp_Pnt &point) {
 gp_Pnt2d Projector::place(const gp_Pnt &point, const gp_Pnt2d &before) {
   const gp_Pnt2d found = from(point, before);
   gap_ = distance(point, found);
-  return gap_ > kNear ? place(point) : found;
+  if (gap_ <= kNear) {
+    return found;
+  }
+  const double gap = gap_;
+  const gp_Pnt2d anew = place(point);
+  if (gap_ <= gap) {
+    return anew;
+  }
+  gap_ = gap;
+  return found;
 }
 
 } // namespace faceformer::occt

@@ -27,12 +27,15 @@ public:
   double gap() const { return gap_; }
 
 private:
+  using Net = std::vector<std::pair<gp_Pnt2d, gp_Pnt>>;
+
   gp_Pnt2d from(const gp_Pnt &point, gp_Pnt2d place) const;
   double distance(const gp_Pnt &point, const gp_Pnt2d &place) const;
 
   GeomAdaptor_Surface surface_;
-  // Points of the surface from which the search starts.
-  std::vector<std::pair<gp_Pnt2d, gp_Pnt>> net_;
+  // Points of the surface, and those on its border, from which the search starts.
+  Net net_;
+  Net border_;
   double gap_ = 0.0;
 };
 

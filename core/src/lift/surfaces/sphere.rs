@@ -7,6 +7,10 @@ use super::flat::best_plane;
 use crate::lift::Surface;
 use crate::lift::dense::solve;
 
+/// Points this near to one plane, relative to the drawing's size, are on one circle, whatever their errors
+/// say.
+const FLAT: f64 = 1e-5;
+
 /// Spheres that the boundary suggests: by an outline, through all points, or touching the
 /// neighbours of a circle.
 pub(super) fn spheres(evidence: &Evidence) -> Vec<Surface> {
@@ -91,6 +95,11 @@ fn in_cone(evidence: &Evidence) -> Vec<(DVec3, f64)> {
 fn through(evidence: &Evidence) -> Option<(DVec3, f64)> {
     let points: Vec<DVec3> = evidence.points().collect();
     if points.len() < 4 {
+        return None;
+    }
+    let (origin, normal) = best_plane(&points)?;
+    let flat = |p: &DVec3| (*p - origin).dot(normal).abs() < FLAT * evidence.size;
+    if points.iter().all(flat) {
         return None;
     }
     let middle = points.iter().sum::<DVec3>() / points.len() as f64;

@@ -27,14 +27,7 @@ const ROUNDS: usize = 3;
 pub(in crate::lift) fn true_surfaces(truth: &Truth, size: f64) -> Vec<Surface> {
     let mut known = vec![Surface::Unknown; truth.faces.len()];
     let sides = sides(truth);
-    for _ in 0..ROUNDS {
-        for f in 0..known.len() {
-            if known[f] == Surface::Unknown {
-                let own = evidence(truth, &[f], &sides, &known, size);
-                known[f] = fitted(&own, truth.faces[f].kind).unwrap_or(Surface::Unknown);
-            }
-        }
-    }
+    by_themselves(truth, &sides, &mut known, size);
     // What an outline leaves of a surface may not tell it: its parts together do.
     for f in 0..known.len() {
         let kind = truth.faces[f].kind;
@@ -51,7 +44,7 @@ pub(in crate::lift) fn true_surfaces(truth: &Truth, size: f64) -> Vec<Surface> {
             .collect();
         for g in beside {
             let both = evidence(truth, &[f, g], &sides, &known, size);
-            if let Some(surface) = fitted(&both, kind) {
+            if let Some(surface) = fitted(&both, kind, balls(&both)) {
                 known[f] = surface;
                 if known[g] == Surface::Unknown {
                     known[g] = surface;
@@ -60,8 +53,22 @@ pub(in crate::lift) fn true_surfaces(truth: &Truth, size: f64) -> Vec<Surface> {
             }
         }
     }
+    by_themselves(truth, &sides, &mut known, size);
     share(truth, &sides, &mut known, size);
     known
+}
+
+/// Fits faces that are not known yet one by one, so that each helps its neighbours.
+fn by_themselves(truth: &Truth, sides: &[Vec<usize>], known: &mut [Surface], size: f64) {
+    for _ in 0..ROUNDS {
+        for f in 0..known.len() {
+            if known[f] == Surface::Unknown {
+                let own = evidence(truth, &[f], sides, known, size);
+                let found = fitted(&own, truth.faces[f].kind, sphere::spheres(&own));
+                known[f] = found.unwrap_or(Surface::Unknown);
+            }
+        }
+    }
 }
 
 /// Gives faces of one surface the same one: the surface that most faces fit goes first.
@@ -139,7 +146,7 @@ fn evidence(
     }
 }
 
-fn fitted(evidence: &Evidence, kind: SurfaceKind) -> Option<Surface> {
+fn fitted(evidence: &Evidence, kind: SurfaceKind, spheres: Vec<Surface>) -> Option<Surface> {
     let axes = || axes::axes(evidence);
     let candidates: Vec<Surface> = match kind {
         SurfaceKind::Plane => plane(evidence).into_iter().collect(),
@@ -148,7 +155,7 @@ fn fitted(evidence: &Evidence, kind: SurfaceKind) -> Option<Surface> {
             .iter()
             .filter_map(|a| profile::cone(evidence, a))
             .collect(),
-        SurfaceKind::Sphere => spheres(evidence),
+        SurfaceKind::Sphere => spheres,
         SurfaceKind::Torus => axes()
             .iter()
             .flat_map(|a| profile::tori(evidence, a))
@@ -198,8 +205,9 @@ fn cylinders(evidence: &Evidence) -> Vec<Surface> {
     found
 }
 
-/// Spheres, also those of which a circle is the widest: an outline is all that bounds a ball.
-fn spheres(evidence: &Evidence) -> Vec<Surface> {
+/// Spheres, also those of which a circle is the widest: an outline is all that bounds a ball. A cap is
+/// bounded by one circle as well, but what it touches tells it.
+fn balls(evidence: &Evidence) -> Vec<Surface> {
     let mut found = sphere::spheres(evidence);
     found.extend(evidence.rings().map(|(ring, _)| Surface::Sphere {
         center: ring.center,
