@@ -85,3 +85,74 @@ fn spline_rim(sheet: &Sheet<'_>, face: usize) -> Option<Across> {
         fitting.next().is_none().then_some(only)
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::{DVec2, DVec3};
+
+    use super::super::testing::{Scene, turned};
+    use super::super::{LiftError, LiftOptions, depth_error, lift};
+    use crate::drawing::{Curve2, Drawing, SurfaceKind};
+    use crate::identify::Face;
+    use crate::{Error, Progress};
+
+    /// Two discs that share nothing, the second `aside` of the first one's axis.
+    fn discs(central: bool, aside: DVec3) -> (Drawing, Vec<Face>) {
+        let turn = turned(0.6, 0.7, 0.05);
+        let mut scene = if central {
+            Scene::central(turn, DVec3::Z * -9.0, DVec2::ZERO, 4.0)
+        } else {
+            Scene::new(turn)
+        };
+        for (at, radius) in [(DVec3::ZERO, 1.0), (aside + DVec3::Z * 1.5, 0.4)] {
+            let ends = scene.wall(at, DVec3::Z * 0.5, radius);
+            for end in ends {
+                scene.face(SurfaceKind::Plane, &[end]);
+            }
+        }
+        scene.finish()
+    }
+
+    fn error(drawing: &Drawing, faces: &[Face]) -> crate::Result<f64> {
+        let found = lift(drawing, faces, &LiftOptions::default(), Progress::none())?;
+        let truth = drawing.truth.as_ref().expect("it is drawn with its truth");
+        Ok(depth_error(&found, truth))
+    }
+
+    #[test]
+    fn discs_on_one_axis_are_tied() {
+        for central in [false, true] {
+            let (drawing, faces) = discs(central, DVec3::ZERO);
+            assert!(error(&drawing, &faces).unwrap() < 1e-6, "{central}");
+            let (drawing, faces) = discs(central, DVec3::X * 0.3);
+            let open = error(&drawing, &faces);
+            let is_open = matches!(open, Err(Error::Lift(LiftError::UnderConstrained { .. })));
+            assert!(is_open, "{central} {open:?}");
+        }
+    }
+
+    /// The rim of the outer end of the second disc as a spline that is off its circle by a ten-thousandth
+    /// of the radius, with a wall of no kind.
+    #[test]
+    fn a_splined_rim_is_a_circle() {
+        let (mut drawing, mut faces) = discs(false, DVec3::ZERO);
+        let rim: Vec<usize> = faces[7].loops[0].iter().map(|c| c.edge()).collect();
+        assert_eq!(faces[7].kind, SurfaceKind::Plane);
+        for &e in &rim {
+            let edge = &mut drawing.edges[e];
+            let last = edge.points.len() - 1;
+            for (i, p) in edge.points.iter_mut().enumerate().take(last).skip(1) {
+                p.x += 4e-5 * if i % 2 == 0 { 1.0 } else { -1.0 };
+            }
+            edge.curve = Curve2::Polyline;
+        }
+        for face in &mut faces {
+            if face.kind == SurfaceKind::Cylinder
+                && face.loops[0].iter().any(|c| rim.contains(&c.edge()))
+            {
+                face.kind = SurfaceKind::Other;
+            }
+        }
+        assert!(error(&drawing, &faces).unwrap() < 1e-3);
+    }
+}

@@ -272,6 +272,59 @@ fn side(sheet: &Sheet<'_>, heights: &Heights, surface: &Surface, face: usize) ->
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::drawing::{CoEdge, Drawing, Edge, SurfaceKind};
+    use crate::identify::{Evidence, Face};
+    use crate::lift::Camera;
+    use crate::lift::directions::Directions;
+
+    /// An edge around a torus that is seen from its side, so that lines of sight cross it four times.
+    #[test]
+    fn an_edge_from_a_known_vertex_tells_where_it_leads() {
+        let torus = Surface::Torus {
+            center: DVec3::ZERO,
+            axis: DVec3::Y,
+            major: 0.4,
+            minor: 0.1,
+        };
+        for far in [1.0, -1.0] {
+            let at = |i: i32| {
+                let (turn, tube) = (1.1 + 0.04 * f64::from(i), 0.3f64);
+                let out = 0.4 + 0.1 * tube.cos();
+                DVec3::new(out * turn.cos(), 0.1 * tube.sin(), far * out * turn.sin())
+            };
+            let points: Vec<DVec3> = (0..=16).map(at).collect();
+            let drawn = points.iter().map(|p| p.truncate());
+            let vertices = [0, 16].map(|i: usize| points[i].truncate());
+            let edge = Edge::drawn([0, 1], drawn.collect());
+            let drawing = Drawing::orthographic(vertices.to_vec(), vec![edge]);
+            let faces = [Face {
+                kind: SurfaceKind::Torus,
+                loops: vec![vec![CoEdge::new(0, false)]],
+                confidence: 1.0,
+                evidence: Evidence::default(),
+            }];
+            let directions = Directions {
+                axes: Vec::new(),
+                slanted: Vec::new(),
+                swept: Vec::new(),
+                camera: Camera::Parallel,
+                error: 1e-6,
+                precision: 1e-6,
+            };
+            let sheet = Sheet::new(&drawing, &faces, &directions);
+            let heights = |start: bool| Heights {
+                vertices: vec![points[0].z, 0.0],
+                planes: vec![None],
+                known: vec![start, false],
+            };
+            let found = |start| heights_on(&sheet, &heights(start), &torus, 1, 0);
+            assert_eq!(found(false).len(), 4);
+            let [only] = found(true)[..] else {
+                panic!("{:?}", found(true));
+            };
+            assert!((only.height - points[16].z).abs() < 1e-6, "{only:?}");
+        }
+    }
 
     /// Lines of sight along z that graze surfaces beside the origin.
     #[test]

@@ -116,3 +116,64 @@ impl Look {
 fn angle(a: DVec3, b: DVec3) -> f64 {
     a.cross(b).length().atan2(a.dot(b).abs())
 }
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use super::super::Camera;
+    use super::super::directions::Axis;
+    use super::super::testing::{Scene, turned};
+    use super::*;
+
+    /// A disc whose axis is known, and round walls at these angles from it, degrees, spread around it:
+    /// the directions of the walls, and the normals that they are said to have.
+    fn told(angles: &[f64]) -> (Vec<DVec3>, Vec<DVec3>) {
+        let turn = turned(0.6, 0.7, 0.05);
+        let mut scene = Scene::new(turn);
+        scene.wall(DVec3::ZERO, DVec3::Z * 0.3, 2.0);
+        let along = |(i, angle): (usize, &f64)| {
+            let (sin, cos) = angle.to_radians().sin_cos();
+            let (y, x) = (TAU * i as f64 / 3.0 + 0.4).sin_cos();
+            DVec3::new(x * sin, y * sin, cos)
+        };
+        let ways: Vec<DVec3> = angles.iter().enumerate().map(along).collect();
+        for way in &ways {
+            scene.wall(*way * 3.0, *way * 0.5, 0.2);
+        }
+        let (drawing, _) = scene.finish();
+        let reading = Directions {
+            axes: vec![Axis {
+                direction: turn * DVec3::Z,
+                edges: Vec::new(),
+                circles: vec![0, 1, 2, 3],
+            }],
+            slanted: Vec::new(),
+            swept: Vec::new(),
+            camera: Camera::Parallel,
+            error: 1e-6,
+            precision: 1e-6,
+        };
+        let slanted = extended(&drawing, reading).slanted.into_iter();
+        let ways = ways.into_iter().map(|way| turn * way);
+        (ways.collect(), slanted.map(|s| s.direction).collect())
+    }
+
+    #[test]
+    fn a_hole_at_a_usual_angle_is_told() {
+        for angle in [30.0, 45.0, 75.0] {
+            let (ways, told) = told(&[angle]);
+            assert_eq!(told.len(), 1, "{angle}");
+            assert!(told[0].cross(ways[0]).length() < 1e-6, "{angle}");
+        }
+        assert!(told(&[37.0]).1.is_empty());
+    }
+
+    #[test]
+    fn holes_around_an_axis_are_told_by_each_other() {
+        let (ways, told) = told(&[37.0; 3]);
+        assert_eq!(told.len(), 3);
+        let near = |way: &DVec3| told.iter().any(|n| n.cross(*way).length() < 1e-6);
+        assert!(ways.iter().all(near));
+    }
+}

@@ -152,8 +152,9 @@ fn lift_exact(
         progress.report(Stage::Lift, 0.2 + 0.8 * i as f64 / count as f64)?;
         let rival = all == most;
         let settled = best.as_ref().is_some_and(|b| b.contradictions == 0);
-        // What explains little contradicts nothing.
-        if (settled && !rival) || 2 * all < most {
+        // What explains little contradicts little.
+        let shows_little = 2 * all < most && reading.swept.is_empty();
+        if (settled && !rival) || shows_little {
             continue;
         }
         match choice(drawing, faces, reading, rival) {

@@ -415,3 +415,13 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn one_circle_tells_no_surface() {
+    let circle = rounded(arc(0.2, 0.5, 0.0, TAU));
+    let own = free(vec![circle.clone()]);
+    assert!(own.is_one_circle());
+    // Its own rounding is no height.
+    assert!(sphere::spheres(&own).is_empty());
+    assert!(!free(vec![circle, arc(0.3, 0.4, 0.0, TAU)]).is_one_circle());
+}
