@@ -10,6 +10,9 @@ const STEPS: usize = 48;
 /// A line that misses the torus by less than this share of its minor radius is taken to touch it.
 const TOUCHES: f64 = 0.02;
 
+/// Two extremes are one where the slope between them is less than this share of that beside them.
+const TURNS: f64 = 1e-3;
+
 /// A line seen from a torus. With p = `from + t direction`, z is p's height over the plane of the
 /// ring and rho its distance from the axis: z is linear in t and rho² quadratic.
 struct Line {
@@ -91,16 +94,59 @@ impl Line {
         let [low, high] = self.range;
         let step = (high - low) / STEPS as f64;
         let mut found = Vec::new();
-        let mut before = (low, self.slope(low));
-        for i in 1..=STEPS {
+        let place = |i: usize| {
             let t = low + step * i as f64;
-            let slope = self.slope(t);
-            if (before.1 < 0.0) != (slope < 0.0) {
-                found.push(root(&|t| self.slope(t), before, (t, slope)));
+            (t, self.slope(t))
+        };
+        let (mut first, mut before) = (place(0), place(0));
+        for i in 1..=STEPS {
+            let here = place(i);
+            if (before.1 < 0.0) != (here.1 < 0.0) {
+                found.push(root(&|t| self.slope(t), before, here));
+            } else {
+                self.extremes_between(first, before, here, &mut found);
             }
-            before = (t, slope);
+            (first, before) = (before, here);
         }
         found
+    }
+
+    /// The two extremes, or the one, between three places with slopes of one sign, of which the middle one
+    /// is the least: where an outline turns, a line of sight has two next to each other.
+    fn extremes_between(
+        &self,
+        first: (f64, f64),
+        middle: (f64, f64),
+        last: (f64, f64),
+        found: &mut Vec<f64>,
+    ) {
+        /// Thirds are taken off so often.
+        const CUTS: usize = 24;
+        let sign = middle.1.signum();
+        let [a, b, c] = [first, middle, last].map(|p| p.1 * sign);
+        if a.min(c) <= 0.0 || b >= a || b > c {
+            return;
+        }
+        let value = |t: f64| self.slope(t) * sign;
+        let (mut low, mut high) = (first.0, last.0);
+        for _ in 0..CUTS {
+            let third = (high - low) / 3.0;
+            let (s, t) = (low + third, high - third);
+            if value(s) < value(t) {
+                high = t;
+            } else {
+                low = s;
+            }
+        }
+        let t = f64::midpoint(low, high);
+        let least = value(t);
+        if least < 0.0 {
+            let at = (t, least * sign);
+            found.push(root(&|t| self.slope(t), first, at));
+            found.push(root(&|t| self.slope(t), at, last));
+        } else if least < TURNS * a.min(c) {
+            found.push(t);
+        }
     }
 }
 
@@ -239,5 +285,25 @@ mod tests {
         assert!(inner < 1e-9);
         let far = touching_gap(&TORUS, DVec3::new(2.4, 0.0, 9.0), DVec3::Z);
         assert!(far > 0.05);
+    }
+
+    /// On the inside of a torus a line that touches it may nearly follow it: its distance is extreme twice
+    /// within one step.
+    #[test]
+    fn a_line_that_nearly_follows_the_torus_touches_it() {
+        for place in 1..20 {
+            let tube = 2.0 + 0.05 * f64::from(place);
+            let (sin, cos) = tube.sin_cos();
+            let out = 2.0 + 0.5 * cos;
+            let at = DVec3::new(out, 0.0, 0.5 * sin);
+            // The direction in which the surface does not bend (Euler 1760).
+            let flat = (-0.5 * cos / out).sqrt().atan();
+            for turn in [-0.02, -0.005, -0.001, 0.0, 0.001, 0.005, 0.02] {
+                let (s, c) = f64::sin_cos(flat + turn);
+                let direction = DVec3::new(-sin * s, c, cos * s);
+                let gap = touching_gap(&TORUS, at - direction * 3.01, direction);
+                assert!(gap < 1e-6, "{tube} {turn} {gap}");
+            }
+        }
     }
 }

@@ -191,14 +191,21 @@ fn round(
             _ => continue,
         };
         let best = |candidates| judge::best(&evidence, candidates, tolerance);
-        let found = best(candidates).or_else(|| {
+        let bulges = || {
             if kind != SurfaceKind::Torus {
                 return None;
             }
             let axes = axes::axes(&evidence);
             let bulges = axes.iter().flat_map(|a| profile::bulges(&evidence, a));
             best(bulges.collect())
-        });
+        };
+        // What is no better known than its parts, as it may be of splines, has the surface of one of them.
+        let others = || {
+            let mut surfaces = whole.iter().map(|&f| known[f]).filter(|_| is_part);
+            let near = |s: &Surface| judge::misfit(&evidence, s) <= (share * sheet.size).max(least);
+            surfaces.find(|s| *s != Surface::Unknown && !evidence.is_one_circle() && near(s))
+        };
+        let found = best(candidates).or_else(bulges).or_else(others);
         if let Some(surface) = found {
             part.iter().for_each(|&f| known[f] = surface);
         }
