@@ -5,7 +5,7 @@
 //! parallel projection. A vertex
 //! of outlines lies where its line of sight touches the surface, or at the tip of a cone.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::Surface;
 use super::fillets;
@@ -146,18 +146,13 @@ fn heights_on(
     let mut found: Vec<f64> = crossings.iter().copied().filter(seen).collect();
     if found.len() > 1
         && let Some(end) = followed(sheet, heights, surface, vertex, face)
-        && let Some(&nearest) = nearest(&crossings, end)
     {
-        found = vec![nearest];
+        let nearest = |a: &f64, b: &f64| (a - end).abs().total_cmp(&(b - end).abs());
+        found = crossings.into_iter().min_by(nearest).into_iter().collect();
     }
     let ties = found.into_iter();
     ties.map(|t| tie(t, 4.0 * precision / slope(t).abs()))
         .collect()
-}
-
-fn nearest(all: &[f64], t: f64) -> Option<&f64> {
-    all.iter()
-        .min_by(|a, b| (*a - t).abs().total_cmp(&(*b - t).abs()))
 }
 
 /// Where the line of sight of a vertex meets a surface if an edge of its face leads there from a known
@@ -171,40 +166,46 @@ fn followed(
 ) -> Option<f64> {
     let own = sheet.edges_of(face);
     let edges = sheet.edges_at(vertex).iter();
-    edges
-        .filter(|e| own.binary_search(e).is_ok())
-        .find_map(|&e| {
-            let edge = &sheet.drawing.edges[e];
-            let start = match edge.v {
-                [u, v] if v == vertex && heights.known[u] => u,
-                [v, u] if v == vertex && heights.known[u] => u,
-                _ => return None,
-            };
-            let mut points = edge.points.clone();
-            if edge.v[0] == vertex {
+    let mut edges = edges.filter(|e| own.binary_search(e).is_ok());
+    edges.find_map(|&e| {
+        let edge = &sheet.drawing.edges[e];
+        let mut points = edge.points.clone();
+        let start = match edge.v {
+            [u, v] if v == vertex => u,
+            [_, u] => {
                 points.reverse();
+                u
             }
-            let (from, ray) = sheet.camera().ray(*points.first()?);
-            let place = sheet.place(*points.first()?, heights.of(start));
-            let mut at = (place - from).dot(ray) / ray.length_squared();
-            let (mut rate, mut last) = (0.0, points[0]);
-            for &p in points.iter().skip(1) {
-                let step = p.distance(last);
-                let (from, ray) = sheet.camera().ray(p);
-                let mut crossings = surface.crossings(from, ray);
-                let ahead = at + rate * step;
-                crossings.sort_by(|a, b| (a - ahead).abs().total_cmp(&(b - ahead).abs()));
-                let (&next, rival) = (crossings.first()?, crossings.get(1));
-                if rival.is_some_and(|r| (r - ahead).abs() < CLEARLY * (next - ahead).abs()) {
-                    return None;
-                }
-                if step > 0.0 {
-                    rate = (next - at) / step;
-                }
-                (at, last) = (next, p);
-            }
-            Some(at)
-        })
+        };
+        let place = sheet.place(*points.first()?, heights.of(start));
+        heights.known[start]
+            .then(|| along(sheet, surface, &points, place))
+            .flatten()
+    })
+}
+
+/// Where the last of drawn points meets a surface if all of them are on one curve there, from a place on.
+fn along(sheet: &Sheet<'_>, surface: &Surface, points: &[DVec2], start: DVec3) -> Option<f64> {
+    let (&first, others) = points.split_first()?;
+    let (from, ray) = sheet.camera().ray(first);
+    let mut at = (start - from).dot(ray) / ray.length_squared();
+    let (mut rate, mut last) = (0.0, first);
+    for &p in others {
+        let step = p.distance(last);
+        let ahead = at + rate * step;
+        let (from, ray) = sheet.camera().ray(p);
+        let mut crossings = surface.crossings(from, ray);
+        crossings.sort_by(|a, b| (a - ahead).abs().total_cmp(&(b - ahead).abs()));
+        let (&next, rival) = (crossings.first()?, crossings.get(1));
+        if rival.is_some_and(|r| (r - ahead).abs() < CLEARLY * (next - ahead).abs()) {
+            return None;
+        }
+        if step > 0.0 {
+            rate = (next - at) / step;
+        }
+        (at, last) = (next, p);
+    }
+    Some(at)
 }
 
 /// Where a line of sight touches a surface, or ends at the tip of a cone, if it does within a distance.
