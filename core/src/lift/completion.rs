@@ -194,8 +194,7 @@ fn along(sheet: &Sheet<'_>, surface: &Surface, points: &[DVec2], start: DVec3) -
         let step = p.distance(last);
         let ahead = at + rate * step;
         let (from, ray) = sheet.camera().ray(p);
-        let mut crossings = surface.crossings(from, ray);
-        crossings.sort_by(|a, b| (a - ahead).abs().total_cmp(&(b - ahead).abs()));
+        let crossings = surface.crossings_from(from, ray, ahead);
         let (&next, rival) = (crossings.first()?, crossings.get(1));
         if rival.is_some_and(|r| (r - ahead).abs() < CLEARLY * (next - ahead).abs()) {
             return None;

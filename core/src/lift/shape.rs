@@ -171,6 +171,13 @@ impl Surface {
         }
     }
 
+    /// The [`crossings`](Self::crossings), the one nearest to a value of t first.
+    pub(crate) fn crossings_from(&self, from: DVec3, direction: DVec3, near: f64) -> Vec<f64> {
+        let mut all = self.crossings(from, direction);
+        all.sort_by(|a, b| (a - near).abs().total_cmp(&(b - near).abs()));
+        all
+    }
+
     /// Where the line `from + t direction` meets the surface: the values of t, none for an unknown
     /// surface. A line that just misses a round surface touches it at its nearest point.
     pub(crate) fn crossings(&self, from: DVec3, direction: DVec3) -> Vec<f64> {

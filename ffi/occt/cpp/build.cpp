@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include <BRepBuilderAPI_Transform.hxx>
 #include <BRepLib.hxx>
 #include <TopoDS.hxx>
@@ -50,8 +48,7 @@ void run(const Model &model, const Watcher &watcher, Topology &topology, Outcome
   }
   report(watcher, kCheckShare);
   TopoDS_Shape solid = make_solid(model, topology);
-  const auto filled = [](const Face &face) { return face.kind == SurfaceType::Filled; };
-  if (model.shells == 1 && std::any_of(model.faces.begin(), model.faces.end(), filled)) {
+  if (model.shells == 1 && has_filled(model)) {
     // Which side of a filled face is out can only be guessed before it is there.
     BRepLib::OrientClosedSolid(TopoDS::Solid(solid));
   }

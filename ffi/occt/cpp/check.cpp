@@ -150,11 +150,8 @@ void check_model(const Model &model, const Topology &topology, const TopoDS_Shap
   if (!analyzer.IsValid()) {
     name_fault(analyzer, topology, solid);
   }
-  const bool filled =
-      std::any_of(model.faces.begin(), model.faces.end(),
-                  [](const Face &face) { return face.kind == SurfaceType::Filled; });
   const double tolerance = largest_tolerance(solid);
-  if (tolerance > (filled ? model.filled_tolerance : model.tolerance)) {
+  if (tolerance > limit(model, has_filled(model))) {
     throw BuildFault(Fault::Tolerance, 0,
                      "its parts meet only within " + length_text(tolerance, model));
   }

@@ -47,8 +47,7 @@ struct Laid {
 // Grows the tolerance of an edge and its vertices to its distance from a face; a fault if too far.
 void fit(const Model &model, std::size_t face, std::size_t edge, double distance,
          const Topology &topology) {
-  const bool filled = model.faces[face].kind == SurfaceType::Filled;
-  if (distance > (filled ? model.filled_tolerance : model.tolerance)) {
+  if (distance > limit(model, model.faces[face].kind == SurfaceType::Filled)) {
     throw BuildFault(Fault::Edge, edge + 1,
                      "it lies " + length_text(distance, model) + " off the surface of face " +
                          std::to_string(model.faces[face].source));

@@ -1,5 +1,4 @@
 #include "fill.h"
-#include "project.h"
 
 #include <algorithm>
 #include <functional>
@@ -20,6 +19,8 @@
 #include <Standard_Failure.hxx>
 #include <TColStd_Array1OfReal.hxx>
 #include <gp_XYZ.hxx>
+
+#include "project.h"
 
 namespace faceformer::occt {
 namespace {

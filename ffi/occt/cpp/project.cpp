@@ -17,6 +17,7 @@ constexpr std::size_t kStarts = 4;
 // Steps from one place; most points need three.
 constexpr int kSteps = 30;
 
+// A step that leads away is halved so often at the most.
 constexpr int kHalvings = 8;
 
 // A step this short, in inner units, is the last.
@@ -27,8 +28,7 @@ constexpr double kNear = 1e-4;
 
 } // namespace
 
-Projector::Projector(const Handle(Geom_BSplineSurface) & surface)
-    : surface_(surface) {
+Projector::Projector(const Handle(Geom_BSplineSurface) & surface) : surface_(surface) {
   const double u = surface_.FirstUParameter();
   const double v = surface_.FirstVParameter();
   const double du = (surface_.LastUParameter() - u) / kLines;
@@ -83,7 +83,6 @@ gp_Pnt2d Projector::from(const gp_Pnt &point, gp_Pnt2d place) const {
       to_u = place.X() + (u - uv * (to_v - place.Y())) / uu;
     }
     gp_Pnt2d next(in_u(to_u), in_v(to_v));
-    // Where the surface bends much, a whole step may lead away.
     for (int j = 0; j < kHalvings && distance(point, next) > off.Magnitude() + kLast; ++j) {
       next.SetXY((next.XY() + place.XY()) / 2.0);
     }

@@ -14,6 +14,11 @@
 #include "guard.h"
 
 namespace faceformer::occt {
+bool has_filled(const Model &model) {
+  return std::any_of(model.faces.begin(), model.faces.end(),
+                     [](const Face &face) { return face.kind == SurfaceType::Filled; });
+}
+
 void raise_vertices(const Model &model, std::size_t edge, double tolerance,
                     const Topology &topology) {
   BRep_Builder builder;

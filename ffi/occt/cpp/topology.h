@@ -46,6 +46,14 @@ inline std::size_t edge_index(std::int32_t coedge) {
   return static_cast<std::size_t>(std::abs(coedge)) - 1;
 }
 
+// Whether some face of a model is filled.
+bool has_filled(const Model &model);
+
+// Largest tolerance allowed at a filled face, or at another one.
+inline double limit(const Model &model, bool filled) {
+  return filled ? model.filled_tolerance : model.tolerance;
+}
+
 // A tolerance that covers a measured distance with some room.
 inline double covering(double distance) {
   return std::max(Precision::Confusion(), distance * 1.05);

@@ -297,10 +297,7 @@ fn on_surface(
             _ => places[0],
         };
         let (from, ray) = camera.ray(*p);
-        let t = surface
-            .crossings(from, ray)
-            .into_iter()
-            .min_by(|a, b| (a - expected).abs().total_cmp(&(b - expected).abs()))?;
+        let t = *surface.crossings_from(from, ray, expected).first()?;
         points.push(from + ray * t);
         places.push(t);
     }

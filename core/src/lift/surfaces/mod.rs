@@ -167,6 +167,7 @@ fn round(
         let kind = wholes::kind(sheet, part);
         let least = ERRORS * sheet.directions.precision;
         let is_part = part.len() < whole.len();
+        let loose = (share * sheet.size).max(least);
         let tolerance = match (kind, before) {
             (_, None) if is_part => continue,
             // Of a part alone some surface fits by chance, and so it does where no outline is.
@@ -174,7 +175,7 @@ fn round(
                 ROUNDS[0] * sheet.size
             }
             (_, Some(before)) if is_part => (before * sheet.size).max(least),
-            _ => (share * sheet.size).max(least),
+            _ => loose,
         };
         let candidates = match kind {
             SurfaceKind::Sphere => sphere::spheres(&evidence),
@@ -202,7 +203,7 @@ fn round(
         // What is no better known than its parts, as it may be of splines, has the surface of one of them.
         let others = || {
             let mut surfaces = whole.iter().map(|&f| known[f]).filter(|_| is_part);
-            let near = |s: &Surface| judge::misfit(&evidence, s) <= (share * sheet.size).max(least);
+            let near = |s: &Surface| judge::misfit(&evidence, s) <= loose;
             surfaces.find(|s| *s != Surface::Unknown && !evidence.is_one_circle() && near(s))
         };
         let found = best(candidates).or_else(bulges).or_else(others);
